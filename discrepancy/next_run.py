@@ -21,6 +21,7 @@ from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.unstated_places import locked
 from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
@@ -203,8 +204,7 @@ def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
 def at_a_position(loop: Measurement, campaign: Campaign) -> Measurement:
     """The same loop measured where the input is known to stand."""
     settings = {**loop.settings, LOCKED_AT: 0.0}
-    record = replace(loop.record, factors={**loop.record.factors, LOCKED_AT: 0.0})
-    return replace(loop, name=f"{loop.kind} at {describe(settings, campaign)}", settings=settings, record=record)
+    return replace(loop, name=f"{loop.kind} at {describe(settings, campaign)}", settings=settings, record=locked(loop.record, 0.0))
 
 
 def at_gap(signal: str, name: str, model: PhysicalModel, campaign: Campaign) -> Asked:

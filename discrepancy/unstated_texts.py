@@ -2,13 +2,14 @@
 
 import math
 
+from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
 from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import MEAN, is_unplaced
+from discrepancy.problem import is_unplaced
 
 
 def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
@@ -24,13 +25,13 @@ def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     for condition, place in places.items():
         angle, turn = math.degrees(math.remainder(place, period)), math.degrees(period)
         told.append(
-            f"loops in {condition}: nobody says where the input was locked; beside what is named they are as measured at {angle:.0f} deg of the input, not as"
+            f"loops in {condition}: {QUESTION}; beside what is named they are as measured at {angle:.0f} deg of the input, not as"
             f" the mean over a turn of the cranks ({turn:.0f} deg, after which they are much alike); state {LOCKED_AT} in the condition if you know it"
         )
     left = [condition for condition in conditions if condition not in places]
     if left and POSITION not in map(effect_of, member.candidates):
         told.append(
-            f"loops in {', '.join(left)}: nobody says where the input was locked, and they are predicted as the mean over a turn of the cranks: what is named"
-            f' or left in loops may be the position; state {LOCKED_AT} = "90 deg" in the condition, or "{MEAN}" if it is one'
+            f"loops in {', '.join(left)}: {QUESTION}; they are predicted as the mean over a turn of the cranks: what is named or left in loops may be the"
+            f" position; {REMEDY}"
         )
     return told

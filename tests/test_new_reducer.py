@@ -70,6 +70,9 @@ def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):
     assert usual_pins(361.0) == 45 and not Given(361.0, 40, 1.0).suns
     assert main(["reducer", "new", "--ratio", "121", "--lobes", "39", "--rated", "167", "--output", str(path), "--overwrite"]) == 0
     assert "assumed, as many as" not in capsys.readouterr().out
+    # None at all is no number that nobody counted.
+    assert main(["reducer", "new", "--ratio", "121", "--pins", "0", "--rated", "167", "--output", str(tmp_path / "none.toml")]) == 2
+    assert "--pins 0: must lie from 8 to 200" in capsys.readouterr().err
 
 
 def test_rules_hold_in_what_is_completed():

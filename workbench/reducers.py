@@ -17,7 +17,7 @@ from reducers.checking import check
 from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
-from reducers.completion.given import Given, usual_pins
+from reducers.completion.given import Given, given_with
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
@@ -130,9 +130,7 @@ def given_of(given: Mapping[str, Any]) -> Given:
     known = given.get("known") or {}
     if not isinstance(known, dict):
         raise InputFault("known numbers are a table of names and values")
-    if "pins" not in values:
-        values |= {"pins": usual_pins(values["ratio"]), "pins_counted": False}
-    return Given(**values, known=known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip()))
+    return given_with(**{"pins": None} | values, known=known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip()))
 
 
 def rows_of(completion: Completion) -> list[dict[str, Any]]:

@@ -87,9 +87,8 @@ def petab(residual: Floats, free: Floats, columns: Floats, owners: Owners, kind:
     from petab_select import ESTIMATE, Criterion, Problem, ui
 
     n = len(residual)
-    alone = sorted((*best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own)), name) for name, own in owners)
-    use = {f"p{k}": own for k, (_, own, _) in enumerate(alone)}
-    names = {f"p{k}": name for k, (_, _, name) in enumerate(alone)}
+    use = {f"p{k}": best_of(residual, free, columns, own, [], 1 if len(own) > 4 else len(own))[1] for k, (_, own) in enumerate(owners)}
+    names = {f"p{k}": name for k, (name, _) in enumerate(owners)}
     with tempfile.TemporaryDirectory() as folder:
         problem = Problem.from_yaml(write_problem(Path(folder), list(use), kind))
         space = None

@@ -113,13 +113,11 @@ def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influe
 
 
 def given_by(options: argparse.Namespace) -> "Given":
-    from reducers.completion.given import Given, usual_pins
+    from reducers.completion.given import given_with
     from reducers.completion.known import known_numbers
 
-    counted = options.pins or (options.lobes + 1 if options.lobes else None)
-    return Given(
-        ratio=options.ratio, pins=counted or usual_pins(options.ratio), pins_counted=bool(counted), rated=options.rated, lobes=options.lobes,
-        diameter=options.diameter, speed=options.speed,
+    return given_with(
+        ratio=options.ratio, pins=options.pins, rated=options.rated, lobes=options.lobes, diameter=options.diameter, speed=options.speed,
         cranks=options.cranks, rollers=options.rollers, lost_motion=options.lost_motion, known=known_numbers(options.known),
     )  # fmt: skip
 

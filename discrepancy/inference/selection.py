@@ -139,7 +139,11 @@ class Selection:
 
     def as_good(self, best: Refit) -> float:
         """Chi-square below which a fit in earnest may stand beside ``best`` as an answer."""
-        return best.fit.chi2 + max(4 * self.settings.margin, self.settings.adequate_margin + FORM * max(best.gain, 0.0))
+        return best.fit.chi2 + max(4 * self.settings.margin, self.little_behind(best))
+
+    def little_behind(self, best: Refit) -> float:
+        """Chi-square by which a fit may be worse than ``best`` where its law may only have a form slightly off."""
+        return self.settings.adequate_margin + FORM * max(best.gain, 0.0)
 
     def as_reported(self, least: float, rival: Refit) -> Refit:
         """A rival as it is reported, fitted in earnest if it may come below the chi-square ``least`` from where predictions in earnest leave it."""
@@ -240,7 +244,7 @@ class Selection:
     def adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
-        margin = self.settings.adequate_margin + FORM * max(members[0].gain, 0.0)
+        margin = self.little_behind(members[0])
         near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
         return [r for r in near if not self.judgement.leftover(r)[0]]
 

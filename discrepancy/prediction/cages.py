@@ -69,7 +69,7 @@ class Cages:
                     found[record.name] = self.found(seen, own)
                 placing.advance()
         self.ripples[self.effects(values)] = found
-        return bool(self.records)
+        return bool(found)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats:
         few = record if record.quantity in HELD else fewer(record, turns_of(self.bench, record))

@@ -19,7 +19,7 @@ import numpy as np
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench, positions_of
 from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
-from discrepancy.prediction.units import TOLERANCE, Condition, within_turn
+from discrepancy.prediction.units import TOLERANCE, Condition, whole_first, within_turn
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.variables import SETTABLE
@@ -37,7 +37,7 @@ class FmuBench(Bench):
 
     def __init__(self, model: ModelFile, settings: Mapping[str, float], folder: Path):
         super().__init__(model.reducer, settings, model.reducer.resolution)
-        self.settings = dict(settings)
+        self.settings = whole_first(settings)
         self.plant, self.wear = Fmu("plant", folder / "RvPlant.fmu"), Fmu("wear", folder / "RvWear.fmu")
         self.master = Master({"plant": self.plant, "wear": self.wear}, CONNECTIONS, step=1.0)
         weakref.finalize(self, self.master.close)
@@ -45,10 +45,9 @@ class FmuBench(Bench):
             require_units_of(model, unit, name)
 
     def renew(self, unit: Fmu, values: Mapping[str, float]) -> None:
-        """A new unit with the settings, single elements after the whole, and then ``values``."""
+        """A new unit with the settings and then ``values``."""
         unit.attempt(unit.slave.reset)
-        settings = dict(sorted(self.settings.items(), key=lambda setting: "[" in setting[0]))
-        for name, value in {**settings, "tolerance": TOLERANCE, **values}.items():
+        for name, value in {**self.settings, "tolerance": TOLERANCE, **values}.items():
             if unit.has(name) and unit.signal(name).causality in SETTABLE:
                 unit.set(name, value)
 

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
-from discrepancy.campaign.model import Campaign, Nuisance
+from discrepancy.campaign.model import Campaign
 from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
-from discrepancy.prediction import chain, model_error
+from discrepancy.prediction import model_error
 from discrepancy.prediction.angle_zeros import angle_zeros
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
@@ -28,19 +28,17 @@ from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.model_error import LOOPS, with_error
+from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.unstated_places import UnstatedPlaces, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats, Mask
-from fmu_src.faults import InputFault, RunFault, nearest
-from fmu_src.table import Table
+from fmu_src.faults import RunFault
 from fmu_src.threads import Threads
 
 # Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
 LAGS = (0.0, 12.0)
-# Nuisances that are no parameters of the reducer.
-ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
 # Error, over the size of the quantity, of values that are impossible.
 IMPOSSIBLE = 100.0
 # Kept predictions: those of one call, of all its runs that repeat each other.
@@ -340,25 +338,3 @@ def typical_size(records: list[Record]) -> float:
 
 def size_of(values: Floats) -> float:
     return max(float(abs(np.mean(values))), float(np.std(values)), 1e-30)
-
-
-def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:
-    """One parameter, or one per mounting, condition or run."""
-    places = {
-        "campaign": [], "mounting": [r.mounting for r in records], "condition": [r.condition for r in records],
-        "run": [r.name for r in records],
-    }[nuisance.per]  # fmt: skip
-    p = nuisance.parameter
-    return [replace(p, name=f"{p.name}[{place}]") for place in dict.fromkeys(places)] or [p]
-
-
-def require_known(folder: Path, nuisances: Sequence[Nuisance], tables: Sequence[Table]) -> None:
-    """InputFault for a nuisance that is no parameter of the model."""
-    scalars = {v.name for table in tables for v in table.of_role("parameter", "input") if not v.shape}
-    for name in (n.parameter.name for n in nuisances):
-        if name not in scalars | {HOUSING_MASS, ENCODER_PHASE} and name.partition("[")[0] not in chain.PARAMETERS:
-            raise InputFault(
-                f"{folder}: nuisances.{name}: the model has no such parameter{nearest(name, scalars | chain.PARAMETERS, 2)}; docs/variables.md lists"
-                f" those of the reducer; of the measuring chain there are {', '.join(sorted(chain.PARAMETERS))} (with the quantity or"
-                f' mounting: "sensor_gain[input_torque]"), {ENCODER_PHASE} and {HOUSING_MASS}'
-            )

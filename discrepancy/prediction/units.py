@@ -56,14 +56,12 @@ class Units:
         self.templates = []
         for table in self.tables:
             records = table.new_records()
-            for name, value in settings.items():
-                if name in table.by_name:
-                    records[name] = value
-            # Single elements are set last: one pin among others that are all larger.
-            for name, value in settings.items():
+            for name, value in whole_first(settings).items():
                 base, bracket, _ = name.partition("[")
-                if bracket and base in table.by_name:
+                if base in table.by_name and bracket:
                     table.cells(records)[table.cell_index(name)] = value
+                elif base in table.by_name:
+                    records[name] = value
             if "tolerance" in table.by_name:
                 records["tolerance"] = TOLERANCE
             self.templates.append(records)
@@ -153,6 +151,11 @@ class Units:
     def turning_time(self, condition: Condition) -> float:
         """Time of one turn of the cranks in the housing [s]."""
         return 2.0 * math.pi * abs(self.ratio) / (condition.speed * self.reducer.topology.lobes)
+
+
+def whole_first(settings: Mapping[str, float]) -> dict[str, float]:
+    """Settings in the order in which they are made: single elements (one pin) after those of whole variables (all are larger)."""
+    return dict(sorted(settings.items(), key=lambda setting: "[" in setting[0]))
 
 
 def within_turn(angle: float) -> float:

@@ -40,10 +40,12 @@ class UnstatedPlaces:
     def __init__(self, records: Sequence[Record], turn: float, period: float):
         self.turn, self.period = turn, period
         self.errors = [record for record in records if record.quantity == ERROR and not record.held_out]
-        self.loops: dict[str, list[Record]] = {}
+        # One of each condition tells: they were not turned between.
+        first: dict[str, Record] = {}
         for record in records:
             if is_unplaced(record):
-                self.loops.setdefault(record.condition, []).append(fewer_samples(record))
+                first.setdefault(record.condition, record)
+        self.loops = {condition: fewer_samples(record) for condition, record in first.items()}
         self.found: dict[Effects, dict[str, float]] = {}
         self.moved: dict[tuple[int, float], Record] = {}
 
@@ -65,8 +67,8 @@ class UnstatedPlaces:
         if not self.loops or not effects or not self.explain(error):
             return False
         before, found = self.taken(effects), {}
-        for condition, loops in self.loops.items():
-            place = self.searched(loops[0], predicted, before.get(condition))
+        for condition, loop in self.loops.items():
+            place = self.searched(loop, predicted, before.get(condition))
             if place is not None:
                 found[condition] = place
         self.found[effects] = found
@@ -75,7 +77,7 @@ class UnstatedPlaces:
     def are_elsewhere(self, effects: Effects, predicted: LoopAt) -> bool:
         """Whether loops were locked elsewhere than where they are taken to with these effects."""
         found = self.found.get(effects, {})
-        seen = {condition: self.searched(self.loops[condition][0], predicted, place) for condition, place in found.items()}
+        seen = {condition: self.searched(self.loops[condition], predicted, place) for condition, place in found.items()}
         return any(place is None or abs(math.remainder(place - found[condition], self.turn)) > NEAR for condition, place in seen.items())
 
     def explain(self, error: ErrorWith) -> bool:

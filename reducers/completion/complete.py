@@ -92,7 +92,7 @@ def complete(given: Given) -> Completion:
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
-    return Completion(given, dials, numbers, [*given.assumed_pins, *rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
+    return Completion(given, dials, numbers, [*pins_doubt(given), *rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
 
 
 def dials_for(given: Given) -> list[Dial]:
@@ -222,6 +222,16 @@ def rounded_ratio(given: Given) -> list[str]:
         return []
     teeth = f"planets of {planet} and a sun of {sun} teeth with {given.pins} pins"
     return [f"--ratio {given.ratio:g} is taken for a rounded one: {teeth} make {made:.6g}, which the file has"]
+
+
+def pins_doubt(given: Given) -> list[str]:
+    """That nobody counted the pins, if so."""
+    if given.pins_counted:
+        return []
+    return [
+        f"{given.pins} pins are assumed, as many as reducers of this kind have: count them, or take them from a transmission error (its orders pins of"
+        " the output's turn are the cranks', 2 x lobes the ring's), and give --pins"
+    ]  # fmt: skip
 
 
 def ring_doubt(radius: float, torque: float) -> list[str]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from typing import Any
 
 from fmu_src.faults import InputFault
 
@@ -65,16 +66,6 @@ class Given:
         return ", ".join([*said, *(f"{name} {value:g}" for name, value in self.known.items())])
 
     @property
-    def assumed_pins(self) -> list[str]:
-        """That nobody counted the pins, if so."""
-        if self.pins_counted:
-            return []
-        return [
-            f"{self.pins} pins are assumed, as many as reducers of this kind have: count them, or take them from a transmission error (its orders pins of"
-            " the output's turn are the cranks', 2 x lobes the ring's), and give --pins"
-        ]  # fmt: skip
-
-    @property
     def crank_count(self) -> int:
         return self.cranks or (3 if self.rated >= THREE_CRANKS else 2)
 
@@ -117,6 +108,12 @@ class Given:
         low, high = FIRST_STAGE
         found = (1.0 + self.pins * planet / sun for sun in SUN_TEETH for planet in range(math.ceil(low * sun), math.floor(high * sun) + 1))
         return min(found, key=lambda ratio: abs(ratio - self.ratio))
+
+
+def given_with(ratio: float, pins: int | None, rated: float, lobes: int | None = None, **more: Any) -> Given:
+    """What is known where nobody may have counted the pins: lobes tell them, else there are as many as usual."""
+    counted = pins if pins is not None or lobes is None else lobes + 1
+    return Given(ratio, usual_pins(ratio) if counted is None else counted, rated, lobes=lobes, pins_counted=counted is not None, **more)
 
 
 def usual_pins(ratio: float) -> int:

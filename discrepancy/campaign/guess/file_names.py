@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from discrepancy.campaign.guess.column_words import IN_NAMES, ON_SURFACE
-from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, is_speed_in_turns, plain_field, spelled, with_units
+from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, figure, is_speed_in_turns, plain_field, spelled, with_units
 from fmu_src import unit_words as u
 
 # Field of a pattern -> kind of its unit and the unit where the name has none; fields without a unit have none here.
@@ -129,9 +129,10 @@ def count_of(text: str) -> int:
 
 def number_of(part: str) -> tuple[str, float, str, str] | None:
     """(field, number, unit, part of the pattern) of a part such as 167Nm or T40."""
-    if (match := WITH_UNIT.match(part)) and is_speed_in_turns(match[1], match[2]):
+    match = WITH_UNIT.match(part)
+    if match and is_speed_in_turns(match[1], match[2]):
         return "speed", figure(match[1]), "rpm", f"{{speed:rpm}}{part[match.end(1):]}"
-    if (match := WITH_UNIT.match(part)) and (known := spelled(match[2])):
+    if match and (known := spelled(match[2])):
         unit, kind = known
         name = FIELDS.get(kind) or ("hours" if unit == "h" else "load" if unit == "%" else None)
         if name:
@@ -144,10 +145,6 @@ def number_of(part: str) -> tuple[str, float, str, str] | None:
         if plainly := plain_field(word):
             return plainly[0], figure(match[2]), plainly[1], part[: match.start(2)] + f"{{{plainly[0]}}}{match[3]}"
     return None
-
-
-def figure(text: str) -> float:
-    return float(text.replace(",", ".").replace("p", "."))
 
 
 def is_quantity(word: str) -> bool:

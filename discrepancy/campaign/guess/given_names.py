@@ -4,8 +4,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from discrepancy.campaign.guess.file_names import NUMBERS, SENSE, Parsed, count_of, figure, proposed, stem
-from discrepancy.campaign.guess.name_units import NUMBER, is_turns, units_behind
+from discrepancy.campaign.guess.file_names import NUMBERS, SENSE, Parsed, count_of, proposed, stem
+from discrepancy.campaign.guess.name_units import NUMBER, figure, is_turns, units_behind
 from fmu_src.faults import InputFault, nearest
 from fmu_src.unit_words import unit_of
 from fmu_src.units import UnitError, conversion

@@ -25,6 +25,11 @@ def spelled(text: str) -> tuple[str, str] | None:
     return unit_of(text.replace("_", " ")) or (unit_of(re.sub(r"[_\s-]", "/", text)) if re.search(r"[_\s-]", text) else None)
 
 
+def figure(text: str) -> float:
+    """The number of ``NUMBER``: 1,5 and 1p5 are 1.5."""
+    return float(text.replace(",", ".").replace("p", "."))
+
+
 def is_turns(text: str) -> bool:
     """Whether words are turns, which behind a speed stand for turns a minute: 15U."""
     known = spelled(text)
@@ -33,7 +38,7 @@ def is_turns(text: str) -> bool:
 
 def is_speed_in_turns(number: str, words: str) -> bool:
     """Whether a number with words behind it is a speed of which the minute is left out: 750 giri."""
-    return len(words) >= LEAST_TURNS and is_turns(words) and float(re.sub("[,p]", ".", number)) >= SPEED_IN_TURNS
+    return len(words) >= LEAST_TURNS and is_turns(words) and figure(number) >= SPEED_IN_TURNS
 
 
 def units_behind(text: str) -> Iterator[tuple[str, str, str, str]]:

@@ -33,6 +33,7 @@ from discrepancy.campaign.readers import ENDINGS
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.problem import MEAN
 from fmu_src.faults import InputFault, nearest
+from reducers.library import named_in
 from reducers.reducer import load_reducer
 
 
@@ -270,8 +271,7 @@ def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[
     """What has to be given before a model can be held against the campaign.  ``runs``: condition and run."""
     found = lacking(runs, conditions)
     if not wishes.reducer:
-        said = {run.reducer for _, run in runs if run.reducer}
-        name = said.pop() if len(said) == 1 else ""
+        name = named_in(line for _, run in runs for line in run.lines)
         text = "which reducer it is has to be said" + (f"; lines above the tables say {name}" if name else "")
         found.append(Doubt("campaign", text, f"--reducer {name or OPEN} (rvwear reducer list shows all), or a reducer file"))
     return tuple(found)

@@ -28,7 +28,6 @@ from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.faults import InputFault
 from fmu_src.unit_words import COUNTS
 from fmu_src.units import UnitError, conversion
-from reducers.library import named_in
 
 ANGLES = ("angle", "input_angle")
 # A clock that starts so many times its range away has its zero elsewhere.
@@ -76,8 +75,8 @@ class GuessedRun:
     above: frozenset[str]
     actual: Mapping[str, str]
     levels: Mapping[str, float]
-    # Of the library, if its name stands above the table.
-    reducer: str | None
+    # Above the table, as they stand there.
+    lines: tuple[str, ...]
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -136,7 +135,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
     levels = {role: held_level(table.columns[e.column.value]) * float(e.keys.get("scale", 1.0)) for role, e in entries.items() if role in FACTOR_KEYS}
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *factor_doubts), headers, left_out,
-                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels, named_in(table.above))  # fmt: skip
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels, table.above)  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:

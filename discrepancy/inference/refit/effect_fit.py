@@ -5,7 +5,7 @@ sensitivities frozen, and the result is then polished with full predictions.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from operator import itemgetter
 
@@ -15,6 +15,7 @@ from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.curvature import by_secants
 from discrepancy.inference.refit.frozen import HOPE, Frozen
+from discrepancy.inference.refit.secants import Secants
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, near
 from fmu_src.arrays import Floats
@@ -280,47 +281,11 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
     return fit_of(parameters, box.named(x), r, columns, candidates, converged)
 
 
-class _Secants:
-    """Columns that follow the residuals that were seen (Broyden), and are taken anew at every few places."""
-
-    def __init__(self, box: Box, exactly: Callable[[Floats], Floats], exact_every: int):
-        self.box, self.exactly, self.exact_every = box, exactly, exact_every
-        self.residuals: dict[bytes, Floats] = {}
-        self.last: tuple[Floats, Floats] | None = None
-        self.since = 0
-
-    @property
-    def exact(self) -> bool:
-        """Whether the last columns were no estimate."""
-        return self.since == 0
-
-    def seen(self, x: Floats, residual: Floats) -> None:
-        self.residuals[x.tobytes()] = residual
-
-    def forget(self) -> None:
-        """The next columns are taken anew."""
-        self.last = None
-
-    def columns(self, x: Floats) -> Floats:
-        """Minus the derivatives (N, p) of the residual at ``x`` (p,), whose residual was seen."""
-        if self.last is not None and np.array_equal(self.last[0], x):
-            return self.last[1]
-        if self.last is None or self.since >= self.exact_every - 1:
-            self.since, found = 0, self.exactly(x)
-        else:
-            before, known = self.last
-            move = (x - before) / self.box.scale
-            missed = self.residuals[before.tobytes()] - self.residuals[x.tobytes()] - known @ (x - before)
-            self.since, found = self.since + 1, known + np.outer(missed, move / (move @ move) / self.box.scale)
-        self.last = x.copy(), found
-        return found
-
-
 def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...],
              evaluations: int = JOINT_STEPS, exact_every: int = EXACT_EVERY) -> Fit:  # fmt: skip
     """All parameters together, with sensitivities that follow, after Levenberg and Marquardt: dear, but from anywhere and along bent valleys."""
     box = Box(parameters)
-    secants = _Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
+    secants = Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
 
     def cost_of(z: Floats) -> tuple[float, Floats]:
         cost, r = _cost(space, box, box.named(z))
