@@ -1,6 +1,8 @@
 """The kernels stay free of Python: what the machine code of each unit needs from outside."""
 
 import math
+import subprocess
+import sys
 
 import lag_unit
 import pytest
@@ -9,6 +11,7 @@ from fmu_src import native
 from fmu_src.compiler import loading
 from fmu_src.compiler.types import KernelFault, Layout
 from fmu_src.kernel import kernel
+from fmu_src.source_hash import ROOT
 from fmu_src.wasm.linking import TRIPLE
 
 
@@ -55,6 +58,35 @@ def test_a_kernel_that_uses_libm_passes_and_another_library_does_not(monkeypatch
     monkeypatch.setattr(loading.store, "read", lambda name: None)
     with pytest.raises(KernelFault, match="tanh"):
         loading.unit_code(initialise, step, layout, (native.host_triple(),))
+
+
+SCATTERED = """
+import ctypes
+from mmap import MAP_ANONYMOUS, MAP_PRIVATE
+import reducers.reducer, rvwear.reducer
+
+c = ctypes.CDLL(None)
+c.mmap.restype, c.mmap.argtypes = ctypes.c_void_p, (ctypes.c_void_p, ctypes.c_size_t, *3 * [ctypes.c_int], ctypes.c_long)
+c.munmap.argtypes = ctypes.c_void_p, ctypes.c_size_t
+
+def taken(size):
+    return c.mmap(None, size, 0, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
+
+below = taken(3 << 30)
+above = []
+while (page := taken(4096)) > below:
+    above.append(page)
+for page in above[::2]:
+    c.munmap(page, 4096)
+print(rvwear.reducer.solve("BX-40E").attrs["reducer"])
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is laid out as Linux does")
+def test_kernels_are_loaded_where_the_memory_of_the_process_is_scattered():
+    """All holes above 3 GB that are in use are full but for one page: it went to the constants, and the code went below."""
+    ended = subprocess.run([sys.executable, "-c", SCATTERED], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (0, "BX-40E\n"), ended.stderr
 
 
 def test_an_entry_point_gives_back_a_status_code():

@@ -2,6 +2,7 @@
 
 import ctypes
 import hashlib
+import itertools
 import linecache
 import sys
 from collections.abc import Callable, Sequence
@@ -143,16 +144,27 @@ def outer_value(module: str, name: str) -> Any:
     return value
 
 
-_engines: list[llvm.ExecutionEngine] = []
+@cache
+def linker() -> llvm.LLJIT:
+    """Of this process.  Kernels reach their constants by 32 bits: JITLink lays the sections of an object beside one another, however the memory of a
+    large process is scattered (LLVM's older linker does not, and ends the process where they lie too far apart)."""
+    return llvm.create_lljit_compiler(target_machine(host_triple()), use_jit_link=sys.platform != "win32")
 
 
-def load_object(code: bytes, symbols: tuple[str, ...]) -> tuple[int, ...]:
-    """Addresses of symbols of an object; what is loaded stays as long as the process."""
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target_machine(host_triple()))
-    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
-    engine.finalize_object()
-    _engines.append(engine)
-    return tuple(engine.get_function_address(symbol) for symbol in symbols)
+_names = itertools.count()
+_loaded: list[llvm.ResourceTracker] = []
+
+
+def load_object(code: bytes, symbols: tuple[str, ...], needs: dict[str, int] | None = None) -> tuple[int, ...]:
+    """Addresses of symbols of an object that calls the C library and ``needs`` (addresses by symbol); what is loaded stays as long as the process."""
+    library = llvm.JITLibraryBuilder().add_object_img(code).add_current_process()
+    for symbol, address in (needs or {}).items():
+        library.import_symbol(symbol, address)
+    for symbol in symbols:
+        library.export_symbol(symbol)
+    loaded = library.link(linker(), f"kernels {next(_names)}")
+    _loaded.append(loaded)
+    return tuple(loaded[symbol] for symbol in symbols)
 
 
 _units: dict[tuple[Source, Source, str], dict[str, int]] = {}
@@ -179,10 +191,8 @@ def call_address(kernel: Source, arguments: tuple[Type, ...]) -> tuple[int, str]
     """(address, code of the result's type) of a kernel for argument types."""
     code = call_code(kernel, arguments)
     known = {layout.digest: layout for kind in arguments for layout in layouts_in(kind)}
-    for symbol, module, name, digest in code.needs:
-        needed = getattr(sys.modules[module], name)
-        llvm.add_symbol(symbol, module_addresses(needed, known[digest])[name])
-    (address,) = load_object(code.objects[host_triple()], ("call",))
+    needs = {symbol: module_addresses(getattr(sys.modules[module], name), known[digest])[name] for symbol, module, name, digest in code.needs}
+    (address,) = load_object(code.objects[host_triple()], ("call",), needs)
     return address, code.results["call"]
 
 
