@@ -23,15 +23,17 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
-from discrepancy.key_figures import KeyFigure, key_figures, too_soft
+from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import FLOATING, PhysicalModel, defined_at
+from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import Scale, of_parameter, shown
+from discrepancy.stiffest import too_soft
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
@@ -97,7 +99,8 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts += calibrated_doubts(space.base, as_told.tables_of(model))
     doubts += [text for name, zero in model.locked_places.base().items() if (text := zero_text(name, zero * model.bench.ratio))]
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
-    return Comparison(model, diagnostician, runs, by_signal(runs), dict(space.base.values), warnings, predictions, found, figures, scales)
+    calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
+    return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
 
 
 def zero_text(name: str, turned: float) -> str:
@@ -203,7 +206,7 @@ def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
     angles = [found.sentence for found in angle_doubts(model.campaign)]
     samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
-    return [*other, *angles, *samples, *too_soft(figures), *incomplete(model.campaign)]
+    return [*other, *angles, *samples, *too_soft(figures, model.bench), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

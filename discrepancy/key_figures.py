@@ -114,18 +114,6 @@ def calibrated_first(figures: Sequence[KeyFigure]) -> list[str]:
     return [*SPRINGS, *(FRICTION if wide else ()), *(PLAY if lost else ())]
 
 
-def too_soft(figures: Sequence[KeyFigure]) -> list[str]:
-    """What to do where the measured reducer is stiffer than the base by a factor: effects add springs, none takes one away."""
-    times = [f.measured / f.model for f in figures if f.name == STIFFNESS and f.off > CLEARLY and f.measured > SOFTER * f.model > 0.0]
-    if not times:
-        return []
-    return [
-        f"the measured reducer is {np.median(times):.2g} times as stiff as the model: effects add springs, none takes one away, so none of them can be named"
-        " from here; take a reducer file with stiffer supports (crank.support_compliance, carrier.compliance, housing.compliance ...; the library's"
-        " RV20E-121-rigid and BX-40E-rigid have none)"
-    ]
-
-
 def between_runs(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]]]) -> dict[tuple[str, str], float]:
     """Standard deviation of one run's figure, by signal and figure, over all conditions with repetitions; robust against one that is off."""
     deviations: dict[tuple[str, str], list[float]] = defaultdict(list)

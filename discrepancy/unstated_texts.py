@@ -19,13 +19,15 @@ def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     if not conditions or member is None:
         return []
     effects: Effects = frozenset(p.name for c in member.candidates for p in c.amplitudes)
-    places = model.unstated_places.taken(effects)
+    places = model.unstated_places.taken(effects, member.fit.values)
     period = model.unstated_places.period
     told = []
     for condition, place in places.items():
+        # From where angles count by this fit, as a stated position does.
+        place -= model.locked_places.zero_moved(next(r for r in model.records if r.condition == condition and is_unplaced(r)), member.fit.values)
         angle, turn = math.degrees(math.remainder(place, period)), math.degrees(period)
         told.append(
-            f"loops in {condition}: {QUESTION}; beside what is named they are as measured at {angle:.0f} deg of the input, not as"
+            f"loops in {condition}: {QUESTION}; beside what is named they are as measured at about {angle:.0f} deg of the input, not as"
             f" the mean over a turn of the cranks ({turn:.0f} deg, after which they are much alike); state {LOCKED_AT} in the condition if you know it"
         )
     left = [condition for condition in conditions if condition not in places]

@@ -9,9 +9,14 @@ import pytest
 from discrepancy.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, too_soft, ways
+from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
+from discrepancy.prediction import bench as virtual
 from discrepancy.prediction.orders import named_orders
 from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.stiffest import SUPPORTS, times_with_rigid_supports, too_soft
+from reducers.reducer import load_reducer
+from rv_plant import supports
+from rvwear import hysteresis
 from studies.hysteresis import torque_way
 
 ORDERS = {"output shaft": (1.0, 2.0), "ring pins": (78.0,), "sun": (121.0,), "first mesh": (1440.0,)}
@@ -122,9 +127,22 @@ def figure(name, measured, model, noise):
     return KeyFigure("hysteresis", "a", name, "rad", measured, model, noise, 2, True)
 
 
-def test_a_base_that_is_softer_than_what_was_measured_is_said():
-    assert "8.2 times as stiff" in too_soft([figure(STIFFNESS, 8.2, 1.0, 0.1)])[0]
-    assert not too_soft([figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)])
+@pytest.mark.parametrize(("name", "times", "said"), [
+    ("RV20E-121", 2.5, "take a reducer file with stiffer supports"), ("RV20E-121", 18.0, "with supports that do not yield the model is"),
+    ("RV20E-121-rigid", 8.2, "its supports do not yield: look at the units"),
+])  # fmt: skip
+def test_a_base_that_is_softer_than_what_was_measured_is_said(name, times, said):
+    known = virtual.Bench(load_reducer(name), {})
+    [told] = too_soft([figure(STIFFNESS, times, 1.0, 0.1)], known)
+    assert f"{times:.2g} times as stiff" in told and said in told
+    assert not too_soft([figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)], known)
+
+
+def test_rigid_supports_make_a_reducer_as_stiff_as_a_file_without_their_compliance():
+    paths = {v.name: (v.path, v.unit) for v in supports.variables({}) if v.name in SUPPORTS}
+    rigid = {path: f"0 {unit}" for path, unit in paths.values()}
+    stiffness = [float(hysteresis("RV20E-121", settings=settings)["torsional_stiffness_Nm_per_arcmin"]) for settings in ({}, rigid)]
+    assert times_with_rigid_supports(virtual.Bench(load_reducer("RV20E-121"), {})) == pytest.approx(stiffness[1] / stiffness[0], rel=0.02)
 
 
 def test_springs_friction_and_play_come_first_where_the_base_is_stiffer_by_a_factor():

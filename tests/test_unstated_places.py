@@ -48,28 +48,41 @@ def explained(record, which):
 def test_the_place_is_found_to_a_few_degrees_of_the_input(bench):
     there = math.radians(700.0)
     loop, places = places_of(bench, there)
-    assert places.placed(loop, OVAL) is loop
-    assert places.place(OVAL, predicted(bench), explained)
-    found = places.placed(loop, OVAL)
+    assert places.placed(loop, OVAL, {}) is loop
+    assert places.place(OVAL, {}, predicted(bench), explained)
+    found = places.placed(loop, OVAL, {})
     left = found.values - OverTorque(bench, found).directly(TRILOBE)
     assert np.std(left) < 0.25 * ARCSEC
     # Turns of the cranks may look alike, and so do halves of one: discs change places.
     assert abs(math.remainder(found.factors[LOCKED_AT] - there, PERIOD / 2.0)) < math.radians(8.0)
     # Once found it stays, with further effects too; without any there is none.
-    assert not places.are_elsewhere(OVAL, predicted(bench))
-    assert places.placed(loop, OVAL | {"drag"}) is found and places.placed(loop, frozenset()) is loop
+    assert not places.are_elsewhere(OVAL, {}, predicted(bench))
+    assert places.taken(OVAL | {"drag"}, {}) == places.taken(OVAL, {}) and places.placed(loop, frozenset(), {}) is loop
+
+
+def test_a_place_that_was_fitted_is_not_left_for_what_a_search_sees(bench):
+    """What a fit has moved it by counts from where it was seen; a search looks again only where it is far from there."""
+    loop, places = places_of(bench, math.radians(700.0))
+    [parameter] = places.parameters()
+    assert places.place(OVAL, {}, predicted(bench), explained)
+    [seen] = places.taken(OVAL, {}).values()
+    near, far = {parameter.name: math.radians(10.0)}, {parameter.name: 0.8 * parameter.scale}
+    assert places.placed(loop, OVAL, near).factors[LOCKED_AT] == seen + math.radians(10.0)
+    assert not places.are_elsewhere(OVAL, near, predicted(bench)) and not places.place(OVAL, near, predicted(bench), explained)
+    assert places.are_elsewhere(OVAL, far, predicted(bench)) and places.place(OVAL, far, predicted(bench), explained)
+    assert abs(places.taken(OVAL, far)["c"] - seen) < math.radians(1.0)
 
 
 def test_a_mean_over_positions_has_no_place(bench):
     loop, places = places_of(bench, None)
-    assert not places.place(OVAL, predicted(bench), explained)
-    assert places.placed(loop, OVAL) is loop
+    assert not places.place(OVAL, {}, predicted(bench), explained)
+    assert places.placed(loop, OVAL, {}) is loop
 
 
 def test_nothing_is_looked_for_beside_what_explains_no_transmission_error(bench):
     _, places = places_of(bench, 0.0)
-    assert not places.place(OVAL, predicted(bench), lambda record, which: np.zeros(len(record.values)))
-    assert not places.place(frozenset(), predicted(bench), explained)
+    assert not places.place(OVAL, {}, predicted(bench), lambda record, which: np.zeros(len(record.values)))
+    assert not places.place(frozenset(), {}, predicted(bench), explained)
 
 
 def test_what_is_stated_is_not_looked_for(bench):

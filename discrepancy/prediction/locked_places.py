@@ -34,6 +34,11 @@ class LockedPlaces(ByEffects):
         """The zeros from which places count with no effect."""
         return {name: self.taken(frozenset())[name] for name in self.names}
 
+    def zero_moved(self, record: Record, values: Mapping[str, float]) -> float:
+        """How far the zero of a record's mounting is from the bench's own by ``values`` [rad of the input]."""
+        name = angle_zero(record)
+        return (values[name] - self.without[name]) * self.ratio if name in self.without and name in values else 0.0
+
     def placed(self, record: Record, effects: Effects) -> Record:
         """The record as if it was locked where that is with these effects, counted from the bench's own zero."""
         name = angle_zero(record)

@@ -31,7 +31,7 @@ from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
-from discrepancy.prediction.unstated_places import UnstatedPlaces, locked
+from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import RunFault
@@ -118,7 +118,7 @@ class PhysicalModel:
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.
             self.nuisances += (Parameter(HOUSING_MASS, "kg", 10.0, 1.0, 1e3, 1.0, 0, 10.0, "mass that vibrates"),)
-        self.nuisances += tuple(model_error.parameters(self.records))
+        self.nuisances += (*model_error.parameters(self.records), *self.unstated_places.parameters())
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity in (ERROR, ORDERS)})
         self.candidates: tuple[Candidate, ...] = candidates(
@@ -141,7 +141,7 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
-        moved.append(self.unstated_places.place(effects, partial(self.loop_at, every), partial(self.error_with, every, effects)))
+        moved.append(self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects)))
         return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
@@ -149,7 +149,7 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         moved = any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
-        return moved or self.unstated_places.are_elsewhere(effects, partial(self.loop_at, every))
+        return moved or self.unstated_places.are_elsewhere(effects, every, partial(self.loop_at, every))
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -207,7 +207,8 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         every |= self.lags.taken(effects)
-        return Asked(every, {name: value for name, value in every.items() if not model_error.is_error(name)}, self.chain.acting(every), effects)
+        of_reducer = {name: value for name, value in every.items() if not (model_error.is_error(name) or is_from_there(name))}
+        return Asked(every, of_reducer, self.chain.acting(every), effects)
 
     def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False, changes: Changes = CHANGES) -> list[Floats]:
         """Predictions on all threads."""
@@ -285,7 +286,7 @@ class PhysicalModel:
         """The record, as if locked where that is with the effects that are on."""
         if record.quantity not in HELD:
             return record
-        return self.unstated_places.placed(self.locked_places.placed(record, asked.effects), asked.effects)
+        return self.unstated_places.placed(self.locked_places.placed(record, asked.effects), asked.effects, asked.values)
 
     def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
         """``placed`` and ``for_record``."""

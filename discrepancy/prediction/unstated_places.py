@@ -3,19 +3,22 @@
 A loop at one position departs from the mean over positions by more than the noise of good benches, and what an effect of the ring or of a crank adds to it
 is another at each position.  With such an effect known from the transmission error the form of the loop tells the position; without, an
 effect of loops alone could hide in it, so that none is looked for (``effects.locked_position`` then says how far a position may be meant).
+
+A search says which turn of the cranks it is, and about where; how far from there is fitted with the effect, which the position may stand for in part.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.by_effects import Effects, with_most
-from discrepancy.problem import ERROR, Record, is_unplaced
+from discrepancy.problem import ERROR, Parameter, Record, is_unplaced
 from fmu_src.arrays import Floats
 
+FROM_PLACE = "from_unstated_place"
 # A loop's prediction [rad] with its input locked at an angle [rad], None: as the mean over positions; a transmission error's with the effects or without.
 LoopAt = Callable[[Record, float | None], Floats]
 ErrorWith = Callable[[Record, bool], Floats]
@@ -23,8 +26,10 @@ ErrorWith = Callable[[Record, bool], Floats]
 # Positions of a turn of the cranks that are looked at first; parts into which what is left is divided, and how often (to a degree of the input, and
 # between); turns of the cranks of which the best place is looked for so closely.
 PER_TURN, CLOSER, TIMES, MOST_CLOSER = 16, 4, 3, 3
-# Nearer places show the same [rad of the input].
-NEAR = math.radians(0.3)
+# A place that was fitted is not left for one that a search, which is rough, sees nearer than this share of its first steps.
+NEAR = 0.5
+# How far from where a search saw it a place may be [first steps of the search], as a standard deviation.
+FROM_THERE = 4.0
 # Squares that a position leaves, of those that the mean over positions leaves: from more nobody can say that there is one.
 CLEARLY = 0.25
 # Squares of a transmission error that effects leave, of those without: less explains it.
@@ -47,38 +52,51 @@ class UnstatedPlaces:
                 first.setdefault(record.condition, record)
         self.loops = {condition: fewer_samples(record) for condition, record in first.items()}
         self.found: dict[Effects, dict[str, float]] = {}
-        self.moved: dict[tuple[int, float], Record] = {}
 
-    def taken(self, effects: Effects) -> dict[str, float]:
-        """The places found with these effects, else with the most of them."""
-        return with_most(self.found, effects, {})
+    @property
+    def step(self) -> float:
+        """Of a search [rad of the input]."""
+        return self.period / PER_TURN
 
-    def placed(self, record: Record, effects: Effects) -> Record:
+    def parameters(self) -> list[Parameter]:
+        """How far from where they were seen loops were locked: of each condition one, which does nothing as long as none was seen;
+        none without transmission errors, beside which they are looked for."""
+        limit, text = FROM_THERE * self.step, "where the input was locked in these loops, from where a search saw it"
+        return [Parameter(from_there(c), "rad", 0.0, -limit, limit, self.step, 0, limit, text) for c in self.loops if self.errors]
+
+    def taken(self, effects: Effects, values: Mapping[str, float]) -> dict[str, float]:
+        """The places found with these effects, else with the most of them, as far from there as ``values`` have them."""
+        return {condition: place + values.get(from_there(condition), 0.0) for condition, place in with_most(self.found, effects, {}).items()}
+
+    def placed(self, record: Record, effects: Effects, values: Mapping[str, float]) -> Record:
         """The record as if it was locked where that was found with these effects."""
-        place = self.taken(effects).get(record.condition) if is_unplaced(record) else None
-        if place is None:
-            return record
-        if (id(record), place) not in self.moved:
-            self.moved[id(record), place] = locked(record, place)
-        return self.moved[id(record), place]
+        place = self.taken(effects, values).get(record.condition) if is_unplaced(record) else None
+        return record if place is None else locked(record, place)
 
-    def place(self, effects: Effects, predicted: LoopAt, error: ErrorWith) -> bool:
+    def place(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt, error: ErrorWith) -> bool:
         """Looks for the places with these effects if they explain transmission errors; False if that changes nothing."""
         if not self.loops or not effects or not self.explain(error):
             return False
-        before, found = self.taken(effects), {}
+        before, now, found = with_most(self.found, effects, {}), self.taken(effects, values), {}
         for condition, loop in self.loops.items():
-            place = self.searched(loop, predicted, before.get(condition))
+            place = self.searched(loop, predicted, now.get(condition))
             if place is not None:
-                found[condition] = place
+                is_there = condition in now and self.are_near(place, now[condition])
+                found[condition] = before[condition] if is_there else place - values.get(from_there(condition), 0.0)
         self.found[effects] = found
         return found != before
 
-    def are_elsewhere(self, effects: Effects, predicted: LoopAt) -> bool:
+    def are_elsewhere(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt) -> bool:
         """Whether loops were locked elsewhere than where they are taken to with these effects."""
-        found = self.found.get(effects, {})
-        seen = {condition: self.searched(self.loops[condition], predicted, place) for condition, place in found.items()}
-        return any(place is None or abs(math.remainder(place - found[condition], self.turn)) > NEAR for condition, place in seen.items())
+        if effects not in self.found:
+            return False
+        now = self.taken(effects, values)
+        seen = {condition: self.searched(self.loops[condition], predicted, place) for condition, place in now.items()}
+        return any(place is None or not self.are_near(place, now[condition]) for condition, place in seen.items())
+
+    def are_near(self, place: float, other: float) -> bool:
+        """Whether two places are one, as roughly as a search sees it."""
+        return abs(math.remainder(place - other, self.turn)) < NEAR * self.step
 
     def explain(self, error: ErrorWith) -> bool:
         """Whether effects leave far less of the transmission errors than is there without."""
@@ -95,7 +113,7 @@ class UnstatedPlaces:
             return float(places[int(np.argmin([left(place) for place in places]))])
 
         def closer(centre: float) -> float:
-            step = self.period / PER_TURN
+            step = self.step
             for _ in range(TIMES):
                 centre = best_of(centre + np.linspace(-step, step, 2 * CLOSER + 1))
                 step /= CLOSER
@@ -111,6 +129,16 @@ class UnstatedPlaces:
         else:
             centre = closer(before)
         return centre % self.turn if left(centre) < CLEARLY * left(None) else None
+
+
+def from_there(condition: str) -> str:
+    """The name of the parameter of a condition's loops."""
+    return f"{FROM_PLACE}[{condition}]"
+
+
+def is_from_there(name: str) -> bool:
+    """Whether a value is such a parameter, and nothing that a reducer knows of."""
+    return name.startswith(FROM_PLACE)
 
 
 def locked(record: Record, place: float) -> Record:

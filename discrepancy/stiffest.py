@@ -1,0 +1,37 @@
+"""What to do where the measured reducer is stiffer than the model by a factor, which no effect makes it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from discrepancy.key_figures import CLEARLY, SOFTER, STIFFNESS, KeyFigure
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.units import Condition
+
+SUPPORTS = ("crank_seat_compliance", "carrier_seat_compliance", "carrier_twist_compliance", "ring_seat_compliance", "tooth_compliance")
+# Of the rated torque; of the compliance that a file gives, where a support hardly yields.
+FROM, TO, HARDLY = 0.5, 1.0, 1e-3
+
+
+def too_soft(figures: Sequence[KeyFigure], bench: Bench) -> list[str]:
+    """Stiffer supports, as far as these go; beyond, what else makes a reducer seem stiff."""
+    times = [f.measured / f.model for f in figures if f.name == STIFFNESS and f.off > CLEARLY and f.measured > SOFTER * f.model > 0.0]
+    if not times:
+        return []
+    measured, most = float(np.median(times)), times_with_rigid_supports(bench)
+    first = f"the measured reducer is {measured:.2g} times as stiff as the model: effects add springs, none takes one away, so none can be named from here"
+    if measured > most:
+        beyond = f"with supports that do not yield the model is {most:.2g} times as stiff:" if most > 1.01 else "its supports do not yield:"
+        return [f"{first}; {beyond} look at the units of torque and turning, and whether the torque is that of the output"]
+    return [
+        f"{first}; take a reducer file with stiffer supports (crank.support_compliance, carrier.compliance, housing.compliance ...; the library's"
+        f" RV20E-121-rigid and BX-40E-rigid have none, and this reducer without would be {most:.2g} times as stiff)"
+    ]
+
+
+def times_with_rigid_supports(bench: Bench) -> float:
+    """Torsional stiffness with supports that do not yield, over that of the model."""
+    torques = bench.rated_load * np.array([FROM, TO])
+    rated = Condition(bench.rated_speed, bench.rated_load)
+    soft, rigid = (np.diff(bench.held(rated, values, torques))[0] for values in ({}, {name: HARDLY * bench.starts[0][name] for name in SUPPORTS}))
+    return float(soft / rigid)
