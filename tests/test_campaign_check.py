@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cli.commands import campaign as campaign_commands
-from cli.show.campaign import told
+from cli.show.campaign import show_pairs
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.pairs import HOLDS_FOR, PAIRS
@@ -87,11 +87,15 @@ def value(quantity: str, text: str, where="a", **tags) -> str:
     return f'quantity = "{quantity}"\ncondition = "{where}"\nvalue = "{text}"\nnoise = "{text}"\n{words}'
 
 
-def test_what_is_not_separable_is_said_to_be_so_while_it_is_small():
-    """The loops of two loads that a diagnosis told apart stood as "not separable"."""
-    assert [told(PairVerdict(PAIRS[0], status)) for status in ("separable", "not separable", "not visible")] == [
-        "separable", "not separable while small", "not visible",
-    ]  # fmt: skip
+def test_what_is_not_separable_is_said_to_be_so_while_it_is_small(capsys):
+    """The loops of two loads that a diagnosis told apart stood as "not separable"; pairs of what nobody measured filled the screen."""
+    show_pairs([PairVerdict(PAIRS[0], "separable"), PairVerdict(PAIRS[1], "not separable", ("hours",)), *(
+        PairVerdict(pair, "not visible", ("no wear is measured",)) for pair in PAIRS[2:4]
+    )])  # fmt: skip
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "not separable while small" in shown and "hours" in shown
+    assert f"separable: {' / '.join(PAIRS[0].effects)}" in shown
+    assert shown.count("not visible") == shown.count("no wear is measured") == 1
 
 
 def test_wear_over_hours_speeds_and_loads(tmp_path):

@@ -1,5 +1,7 @@
 """What ``rvwear campaign`` shows on the screen."""
 
+from collections.abc import Sequence
+
 from rich.table import Table
 
 from cli.screen import WIDTH, console, dense, styled
@@ -8,8 +10,8 @@ from discrepancy.campaign.findings import PROBLEM
 from discrepancy.campaign.pairs import HOLDS_FOR, Verdict
 from discrepancy.separability import Separability
 
-# Nothing here is proven by a measurement: no green.
-STATUS_STYLE = {"separable": "bold", "not separable": "yellow", "not visible": "dim"}
+# How a campaign leaves two effects that look alike.
+SEPARABLE, ALIKE, UNSEEN = "separable", "not separable", "not visible"
 
 
 def show(check: Check) -> None:
@@ -24,24 +26,39 @@ def show(check: Check) -> None:
     out.print(table)
     for finding in check.findings:
         out.print(styled((finding.level, "red" if finding.level == PROBLEM else "yellow"), f" {finding.text}; {finding.remedy}"))
-    pairs = Table(title=f"pairs of effects that look alike, {HOLDS_FOR}", title_justify="left")
-    for name in ("", "effects", "this campaign", "what is missing"):
-        pairs.add_column(name)
-    for verdict in check.pairs:
-        pairs.add_row(
-            str(verdict.pair.number), " / ".join(verdict.pair.effects), styled((told(verdict), STATUS_STYLE[verdict.status])),
-            "; ".join(verdict.missing),
-        )  # fmt: skip
-    out.print(pairs)
+    show_pairs(check.pairs)
     problems = len(check.problems)
     outcome = f"{problems} problem{'s' * (problems != 1)}, {len(check.findings) - problems} warnings"
     impossible = "no diagnosis can be relied on yet" if check.campaign.training else "no diagnosis is possible yet"
     out.print(f"{outcome}; {impossible if problems else 'a diagnosis is possible'}")
 
 
-def told(verdict: Verdict) -> str:
-    """The status as it holds: nothing is said of effects far above the noise."""
-    return "not separable while small" if verdict.status == "not separable" else verdict.status
+def show_pairs(pairs: Sequence[Verdict]) -> None:
+    """What to measure, for those that the campaign's conditions leave alike while they are small (nothing is said of effects far above the noise);
+    in a line each what these tell apart, and what does not show at all."""
+    out = console(WIDTH)
+    told: dict[str, list[Verdict]] = {}
+    for verdict in pairs:
+        told.setdefault(verdict.status, []).append(verdict)
+    out.print(f"pairs of effects that look alike, {HOLDS_FOR}")
+    table = Table()
+    for name in ("", "not separable while small", "what is missing"):
+        table.add_column(name)
+    for verdict in told.get(ALIKE, []):
+        table.add_row(str(verdict.pair.number), between([verdict]), "; ".join(verdict.missing))
+    if table.rows:
+        out.print(table)
+    if SEPARABLE in told:
+        out.print(styled((SEPARABLE, "bold"), f": {between(told[SEPARABLE])}"))
+    unseen: dict[str, list[Verdict]] = {}
+    for verdict in told.get(UNSEEN, []):
+        unseen.setdefault("; ".join(verdict.missing), []).append(verdict)
+    for missing, which in unseen.items():
+        out.print(styled((f"{UNSEEN}: {between(which)} ({missing})", "dim")))
+
+
+def between(verdicts: Sequence[Verdict]) -> str:
+    return "; ".join(" / ".join(verdict.pair.effects) for verdict in verdicts)
 
 
 def show_separability(found: Separability) -> None:

@@ -258,7 +258,10 @@ class Diagnostician:
         """What is known so far: base fit, localisation, scores, and the best fit."""
         fits = sorted(self.refits.fitted.values(), key=penalised)
         done = ["base fit"] + ([self.tested] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
-        reason = f"stopped while {self.doing}; done: {', '.join(done)}" + (f"; best so far: {fits[0].name}" if fits else "")
+        reason = f"stopped while {self.doing}; done: {', '.join(done)}"
+        if fits:
+            is_final = frozenset(c.name for c in fits[0].candidates) in self.refits.final_fits
+            reason += f"; best so far: {fits[0].name}" + ("" if is_final else ", fitted roughly: its numbers may move by more than their intervals")
         captured = 0.0
         text: dict[str, Any] = {}
         if fits:
