@@ -203,6 +203,23 @@ class Settling(Protocol):
 
 
 @runtime_checkable
+class Placing(Protocol):
+    """What a model may be besides: one with nuisances that have many optima, since what they place repeats itself."""
+
+    def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
+        """The best places beside the effects in ``values``, looked for everywhere, by name; before them what they leave, to compare such values by."""
+        ...
+
+    def unplaced(self) -> Sequence[int]:
+        """Records that say nothing before it is known where they were taken: ``Settling`` finds it beside effects that are about right."""
+        ...
+
+    def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
+        ...
+
+
+@runtime_checkable
 class Cheaper(Protocol):
     """What a model may have besides: predictions next to others to first order, such at any distance from others, and rough ones."""
 

@@ -66,8 +66,8 @@ def test_a_place_that_was_fitted_is_not_left_for_what_a_search_sees(bench):
     [parameter] = places.parameters()
     assert places.place(OVAL, {}, predicted(bench), explained)
     [seen] = places.taken(OVAL, {}).values()
-    near, far = {parameter.name: math.radians(10.0)}, {parameter.name: 0.8 * parameter.scale}
-    assert places.placed(loop, OVAL, near).factors[LOCKED_AT] == seen + math.radians(10.0)
+    near, far = {parameter.name: math.radians(5.0)}, {parameter.name: 3.0 * parameter.scale}
+    assert places.placed(loop, OVAL, near).factors[LOCKED_AT] == seen + math.radians(5.0)
     assert not places.are_elsewhere(OVAL, near, predicted(bench)) and not places.place(OVAL, near, predicted(bench), explained)
     assert places.are_elsewhere(OVAL, far, predicted(bench)) and places.place(OVAL, far, predicted(bench), explained)
     assert abs(places.taken(OVAL, far)["c"] - seen) < math.radians(1.0)

@@ -1,6 +1,6 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -14,7 +14,7 @@ from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
-from discrepancy.prediction.angle_zeros import angle_zeros
+from discrepancy.prediction.angle_zeros import angle_zeros, best_zeros
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects
@@ -27,12 +27,13 @@ from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.locked_places import LockedPlaces
+from discrepancy.prediction.locked_waves import LockedWaves
 from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
-from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
+from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import RunFault
 from fmu_src.threads import Threads
@@ -110,6 +111,7 @@ class PhysicalModel:
             bench.zeros.update(self.zeros)
         self.locked_places = LockedPlaces(self.records, self.zeros, self.bench.ratio)
         turn = 2.0 * np.pi * abs(self.bench.ratio)
+        self.locked_waves = LockedWaves(self.records, list(self.zeros), self.wave * abs(self.bench.ratio), model.reducer.topology.discs)
         self.unstated_places = UnstatedPlaces(self.records, turn, turn / model.reducer.topology.pins)
         self.search_bench = in_process.rougher.forgetful()
         if zeros is None:
@@ -128,7 +130,7 @@ class PhysicalModel:
 
     def angle_nuisances(self) -> list[Parameter]:
         found = [
-            Parameter(name, "rad", zero, zero - 0.25 * self.wave, zero + 0.25 * self.wave, 1e-3, 0, None,
+            Parameter(name, "rad", zero, zero - 0.5 * self.wave, zero + 0.5 * self.wave, 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip
@@ -141,15 +143,34 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
+        moved.append(self.locked_waves.place(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)))
         moved.append(self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects)))
         return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
+
+    def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
+        """See ``problem.Placing``: zeros of angles, with the lag of the base model."""
+        every = self.standing() | {name: value for name, value in values.items() if name != LAG_SHARE}
+        left, found = best_zeros(self.bench, self.records, self.wave, self.for_record, every, list(self.zeros))
+        # The nearest of those that look alike.
+        return left, {name: zero + self.wave * round((self.zeros[name] - zero) / self.wave) for name, zero in found.items()}
+
+    def unplaced(self) -> list[int]:
+        """See ``problem.Placing``: loops of which nobody says where the input was locked, or whose places count from a zero that is found."""
+        return [i for i, record in enumerate(self.records) if is_unplaced(record) or self.locked_waves.counts(record)]
+
+    def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
+        """See ``problem.Placing``: inputs whose place was found are locked where the discs have changed places."""
+        every = self.standing() | dict(values)
+        return self.unstated_places.half_a_turn_on(self.cages.effects(every), every, partial(self.loop_at, every))
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""
         every = self.standing() | dict(values)
         effects = self.cages.effects(every)
         moved = any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
-        return moved or self.unstated_places.are_elsewhere(effects, every, partial(self.loop_at, every))
+        if moved or self.locked_waves.are_elsewhere(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)):
+            return True
+        return self.unstated_places.are_elsewhere(effects, every, partial(self.loop_at, every))
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
@@ -267,8 +288,12 @@ class PhysicalModel:
             self.shown[key] = found
         return found
 
+    def loop_of(self, values: Mapping[str, float]) -> Callable[[Record], Floats]:
+        """Loops [rad] roughly, as their records are placed."""
+        return lambda record: self.loop_at(values, record, None)
+
     def loop_at(self, values: Mapping[str, float], record: Record, place: float | None) -> Floats:
-        """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the mean over positions."""
+        """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the record has it, else as the mean over positions."""
         asked, record = self.asked(values), record if place is None else locked(record, place)
         found = OBSERVED[record.quantity](self.search_bench, record, self.own(record, asked))
         return self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found
@@ -286,7 +311,8 @@ class PhysicalModel:
         """The record, as if locked where that is with the effects that are on."""
         if record.quantity not in HELD:
             return record
-        return self.unstated_places.placed(self.locked_places.placed(record, asked.effects), asked.effects, asked.values)
+        known = self.locked_waves.placed(self.locked_places.placed(record, asked.effects), asked.effects)
+        return self.unstated_places.placed(known, asked.effects, asked.values)
 
     def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
         """``placed`` and ``for_record``."""

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.by_effects import Effects, with_most
@@ -23,15 +24,17 @@ FROM_PLACE = "from_unstated_place"
 LoopAt = Callable[[Record, float | None], Floats]
 ErrorWith = Callable[[Record, bool], Floats]
 
-# Positions of a turn of the cranks that are looked at first; parts into which what is left is divided, and how often (to a degree of the input, and
-# between); turns of the cranks of which the best place is looked for so closely.
-PER_TURN, CLOSER, TIMES, MOST_CLOSER = 16, 4, 3, 3
+# Positions of a turn of the cranks that are looked at first (discs that jam show another loop 20 deg further); parts into which what is left is divided,
+# and how often (to a degree of the input, and between); of first positions, and of turns of the cranks, those about which is looked so closely.
+PER_TURN, CLOSER, TIMES, MOST_CLOSER = 64, 4, 2, 3
 # A place that was fitted is not left for one that a search, which is rough, sees nearer than this share of its first steps.
 NEAR = 0.5
 # How far from where a search saw it a place may be [first steps of the search], as a standard deviation.
 FROM_THERE = 4.0
 # Squares that a position leaves, of those that the mean over positions leaves: from more nobody can say that there is one.
 CLEARLY = 0.25
+# Squares that another place leaves, of those that the one taken leaves: from more it stays.
+BETTER = 0.5
 # Squares of a transmission error that effects leave, of those without: less explains it.
 EXPLAINED = 0.5
 # Samples of a loop that are looked at.
@@ -61,7 +64,7 @@ class UnstatedPlaces:
     def parameters(self) -> list[Parameter]:
         """How far from where they were seen loops were locked: of each condition one, which does nothing as long as none was seen;
         none without transmission errors, beside which they are looked for."""
-        limit, text = FROM_THERE * self.step, "where the input was locked in these loops, from where a search saw it"
+        limit, text = 0.5 * self.period + FROM_THERE * self.step, "where the input was locked in these loops, from where a search saw it"
         return [Parameter(from_there(c), "rad", 0.0, -limit, limit, self.step, 0, limit, text) for c in self.loops if self.errors]
 
     def taken(self, effects: Effects, values: Mapping[str, float]) -> dict[str, float]:
@@ -81,8 +84,7 @@ class UnstatedPlaces:
         for condition, loop in self.loops.items():
             place = self.searched(loop, predicted, now.get(condition))
             if place is not None:
-                is_there = condition in now and self.are_near(place, now[condition])
-                found[condition] = before[condition] if is_there else place - values.get(from_there(condition), 0.0)
+                found[condition] = before[condition] if place == now.get(condition) else place - values.get(from_there(condition), 0.0)
         self.found[effects] = found
         return found != before
 
@@ -90,9 +92,28 @@ class UnstatedPlaces:
         """Whether loops were locked elsewhere than where they are taken to with these effects."""
         if effects not in self.found:
             return False
-        now = self.taken(effects, values)
-        seen = {condition: self.searched(self.loops[condition], predicted, place) for condition, place in now.items()}
-        return any(place is None or not self.are_near(place, now[condition]) for condition, place in seen.items())
+        return any(self.searched(self.loops[condition], predicted, now) != now for condition, now in self.taken(effects, values).items())
+
+    def half_a_turn_on(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt) -> dict[str, float]:
+        """The parameters with which loops were locked half a turn of the cranks from where they are taken to: discs have changed places there, and a
+        fit that has settled with one looks as good to a search as the other."""
+        other = {}
+        for condition, place in self.taken(effects, values).items():
+            far = self.closer(self.loops[condition], predicted, place + 0.5 * self.period) - place
+            name = from_there(condition)
+            there = values.get(name, 0.0) + far
+            other[name] = there - self.period if there > 0.5 * self.period else there
+        return other
+
+    def closer(self, loop: Record, predicted: LoopAt, centre: float) -> float:
+        """The best place about another, within a step of the search."""
+        step = self.step
+        for _ in range(TIMES):
+            centre = best_of(loop, predicted, centre + np.linspace(-step, step, 2 * CLOSER + 1))
+            step /= CLOSER
+        before, at, after = (left_of(loop, predicted, centre + part) for part in (-step, 0.0, step))
+        bend = before - 2.0 * at + after
+        return centre + step * float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend > 0.0 else centre
 
     def are_near(self, place: float, other: float) -> bool:
         """Whether two places are one, as roughly as a search sees it."""
@@ -103,32 +124,32 @@ class UnstatedPlaces:
         left, whole = (sum(float(np.sum((r.values - error(r, which)) ** 2)) for r in self.errors) for which in (True, False))
         return left < EXPLAINED * whole
 
-    def searched(self, loop: Record, predicted: LoopAt, before: float | None) -> float | None:
-        """The place [rad] at which a loop is as measured, if there is one that leaves far less than the mean over positions; about one known ``before``."""
+    def searched(self, loop: Record, predicted: LoopAt, now: float | None) -> float | None:
+        """The place [rad] at which a loop is as measured, if there is one that leaves far less than the mean over positions; that where it is ``now``
+        taken to be if none is clearly better."""
 
         def left(place: float | None) -> float:
-            return float(np.var(loop.values - predicted(loop, place)))
+            return left_of(loop, predicted, place)
 
-        def best_of(places: Floats) -> float:
-            return float(places[int(np.argmin([left(place) for place in places]))])
+        def closest_of(places: npt.NDArray[np.floating]) -> float:
+            likely = places[np.argsort([left(place) for place in places])[:MOST_CLOSER]]
+            return best_of(loop, predicted, np.array([self.closer(loop, predicted, place) for place in likely]))
 
-        def closer(centre: float) -> float:
-            step = self.step
-            for _ in range(TIMES):
-                centre = best_of(centre + np.linspace(-step, step, 2 * CLOSER + 1))
-                step /= CLOSER
-            before, at, after = (left(centre + part) for part in (-step, 0.0, step))
-            bend = before - 2.0 * at + after
-            return centre + step * float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend > 0.0 else centre
+        # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all.
+        first = closest_of(np.arange(PER_TURN) * self.step)
+        found = closest_of(first + np.arange(0.0, self.turn, self.period)) % self.turn
+        if now is not None and (self.are_near(found, now) or left(found) > BETTER * left(now)):
+            found = now
+        return found if left(found) < CLEARLY * left(None) else None
 
-        if before is None:
-            # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all, then the best.
-            alike = closer(best_of(np.arange(PER_TURN) * self.period / PER_TURN)) + np.arange(0.0, self.turn, self.period)
-            likely = alike[np.argsort([left(place) for place in alike])[:MOST_CLOSER]]
-            centre = best_of(np.array([closer(place) for place in likely]))
-        else:
-            centre = closer(before)
-        return centre % self.turn if left(centre) < CLEARLY * left(None) else None
+
+def left_of(loop: Record, predicted: LoopAt, place: float | None) -> float:
+    """What a place leaves of a loop, as a variance."""
+    return float(np.var(loop.values - predicted(loop, place)))
+
+
+def best_of(loop: Record, predicted: LoopAt, places: Floats) -> float:
+    return float(places[int(np.argmin([left_of(loop, predicted, place) for place in places]))])
 
 
 def from_there(condition: str) -> str:

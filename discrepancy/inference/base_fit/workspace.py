@@ -1,5 +1,6 @@
 """The measured records, their noise, and the model fitted to them as it stands."""
 
+import copy
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -48,6 +49,13 @@ class Workspace:
     def lay_out(self) -> None:
         """Which rows of the stack belong to which training record."""
         self.rows, self.size = rows_of(self.noise, self.training)
+
+    def only(self, kept: Sequence[int]) -> "Workspace":
+        """The same with these training records alone."""
+        other = copy.copy(self)
+        other.training = list(kept)
+        other.lay_out()
+        return other
 
     def whiten(self, arrays: Mapping[int, Floats]) -> Floats:
         """Whitened stack over the training records; records not given are zero."""

@@ -17,7 +17,7 @@ from discrepancy.inference.refit.curvature import by_secants
 from discrepancy.inference.refit.frozen import HOPE, Frozen
 from discrepancy.inference.refit.secants import Secants
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
-from discrepancy.problem import Candidate, Parameter, near
+from discrepancy.problem import Candidate, Parameter, Placing, near
 from fmu_src.arrays import Floats
 
 TURN = 2.0 * math.pi
@@ -38,6 +38,8 @@ RENEWALS, STILL = 4, 2e-3
 ROUGHLY_STILL = 0.1
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
 OTHERS, PROMISING = 2, 0.1
+# Chi-square by sample of a fit that leaves much, share of the base fit's of one that explains much, and how many other places such a fit starts from.
+LEAVES, EXPLAINS, ELSEWHERE = 2.0, 0.5, 2
 # Rounds of polishing a fit that is searched for, by the sensitivities that it has, and one that is reported.
 ROUGH_ROUNDS, ROUNDS = 4, 8
 # A fit that is searched for, of which a further step promises more than this chi-square, takes sensitivities anew so often: a wear
@@ -70,11 +72,36 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
         anew = {**{p.name: p.off for p in nuisances}, **{p.name: starts[0].get(p.name, p.off) for p in own}}
         found = min(found, _jointly(space, parameters, anew, names), key=lambda f: f.chi2)
+    if widely:
+        found = _from_elsewhere(space, found, candidates, least)
     if found.chi2 > space.base.chi2:
         # Whatever the search has lost: switched off, an effect is as good as none.
         off = {**space.base.values, **{p.name: p.off for p in own}}
         found = fit_of(parameters, off, space.base.residual, every, names, False)
     return found
+
+
+def _from_elsewhere(space: Workspace, fit: Fit, candidates: Sequence[Candidate], least: float) -> Fit:
+    """The fit, or a better one from where the model places its nuisances beside the effects: what the base fit had placed without a large one may be
+    far from there.  Only of what explains much and leaves much, unless another leaves little (``least``)."""
+    model, much = space.model, LEAVES * len(fit.residual)
+    if not isinstance(model, Placing) or not much < fit.chi2 < EXPLAINS * space.base.chi2 or least < much:
+        return fit
+    own = {p.name: fit.values[p.name] for c in candidates for p in c.parameters}
+    forms = [own, *({**own, **shapes} for c in candidates for shapes in c.shape_grid)]
+    found = [(*model.placed_anew({**fit.values, **form}), form) for form in forms]
+    off = {p.name: p.off for p in model.nuisances}
+    sure = [i for i in space.training if i not in model.unplaced()]
+    for _, places, form in sorted(found, key=itemgetter(0))[:ELSEWHERE]:
+        if not places:
+            continue
+        start: Mapping[str, float] = {**off, **form, **places}
+        if len(sure) < len(space.training):
+            # What stands nobody knows where follows: it would hold the effects where it shows least of them.
+            start = _jointly(space.only(sure), fit.parameters, start, fit.candidates).values
+            space.predictions.settle(start)
+        fit = min(fit, _jointly(space, fit.parameters, start, fit.candidates), key=lambda f: f.chi2)
+    return fit
 
 
 def _finished(space: Workspace, fit: Fit, least: float) -> Fit:

@@ -9,10 +9,12 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import in_earnest, there
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
-from discrepancy.problem import Candidate
+from discrepancy.problem import Candidate, Placing
 
 # Of chi-square: by so much a fit from another start is another optimum.
 BETTER = 1.0
+# Chi-square by sample of a fit that may leave something.
+LEFT = 1.0
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
 AGAIN = 3
 
@@ -88,9 +90,25 @@ class Refits:
                 break
             self.settle(key, better)
             better = finished(self.space, result.candidates, *in_earnest(self.space, better.fit, result.candidates))
+        for _ in range(AGAIN):
+            other = self.otherwise(better)
+            if other.fit.chi2 > better.fit.chi2 - BETTER:
+                break
+            better = other
         self.gained[key] = max(roughly - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
+
+    def otherwise(self, result: Refit) -> Refit:
+        """The refit with what the model has placed at the other place that looks alike, if something may be left of the misfit."""
+        model, fit = self.space.model, result.fit
+        if not isinstance(model, Placing) or fit.chi2 < LEFT * len(fit.residual):
+            return result
+        places = model.otherwise(fit.values)
+        if not places:
+            return result
+        start = replace(fit, values={**fit.values, **places})
+        return finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
 
     def seen(self, result: Refit) -> Refit:
         """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
