@@ -73,6 +73,18 @@ def test_a_place_that_was_fitted_is_not_left_for_what_a_search_sees(bench):
     assert abs(places.taken(OVAL, far)["c"] - seen) < math.radians(1.0)
 
 
+def test_the_other_place_that_looks_alike_is_half_a_turn_of_the_cranks_on(bench):
+    _, places = places_of(bench, math.radians(700.0))
+    places.place(OVAL, {}, predicted(bench), explained)
+    [there] = places.taken(OVAL, {}).values()
+    other = places.half_a_turn_on(OVAL, {}, predicted(bench))
+    [further] = places.taken(OVAL, other).values()
+    assert abs(abs(math.remainder(further - there, PERIOD)) - PERIOD / 2.0) < places.step
+    [limit] = [p.upper for p in places.parameters()]
+    assert all(abs(moved) <= limit for moved in other.values())
+    assert places.half_a_turn_on(frozenset(), {}, predicted(bench)) == {}
+
+
 def test_a_mean_over_positions_has_no_place(bench):
     loop, places = places_of(bench, None)
     assert not places.place(OVAL, {}, predicted(bench), explained)
