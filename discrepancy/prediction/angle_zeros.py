@@ -17,6 +17,7 @@ from fmu_src.arrays import Floats
 
 # Places in a wave of the pattern that fixes where an angle is counted from.
 PHASES = 48
+SHARES = np.linspace(-0.5, 0.5, PHASES, endpoint=False)
 # A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
 OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
 
@@ -27,7 +28,7 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
 
     A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``).
     """
-    shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * wave
+    shifts = SHARES * wave
     zeros: dict[str, float] = {}
     for name, record in telling(bench, records).items():
         found, left = shown_at(bench, record, for_record(record, {**zeros, **standing}), shifts)
@@ -44,7 +45,7 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
                values: Mapping[str, float], names: Sequence[str]) -> tuple[float, dict[str, float]]:  # fmt: skip
     """Those of the zeros ``names`` [rad] that leave least of one record each beside an effect of ``values``, and what they leave, in its variance."""
-    shifts = np.linspace(-0.5, 0.5, PHASES, endpoint=False) * wave
+    shifts = SHARES * wave
     zeros, whole = {}, 0.0
     for name, record in telling(bench, records).items():
         if name in names:

@@ -23,7 +23,7 @@ class LockedPlaces(ByEffects):
     def __init__(self, records: Sequence[Record], zeros: Mapping[str, float], ratio: float):
         super().__init__(zeros, NEAR / abs(ratio))
         self.ratio = abs(ratio)
-        locked = {angle_zero(r) for r in records if LOCKED_AT in r.factors or LOCKED_AT in r.axes}
+        locked = {angle_zero(r) for r in records if has_place(r)}
         self.names = sorted(locked & self.without.keys())
         self.moved: dict[tuple[int, float], Record] = {}
 
@@ -48,7 +48,17 @@ class LockedPlaces(ByEffects):
         if not shift:
             return record
         if (id(record), shift) not in self.moved:
-            factors = {key: value + shift if key == LOCKED_AT else value for key, value in record.factors.items()}
-            axes = {key: axis + shift if key == LOCKED_AT else axis for key, axis in record.axes.items()}
-            self.moved[id(record), shift] = replace(record, factors=factors, axes=axes)
+            self.moved[id(record), shift] = shifted(record, shift)
         return self.moved[id(record), shift]
+
+
+def has_place(record: Record) -> bool:
+    """Whether it is said where the input was locked."""
+    return LOCKED_AT in record.factors or LOCKED_AT in record.axes
+
+
+def shifted(record: Record, shift: float) -> Record:
+    """A record as if its input was locked ``shift`` [rad] further, wherever it says a place."""
+    factors = {key: value + shift if key == LOCKED_AT else value for key, value in record.factors.items()}
+    axes = {key: axis + shift if key == LOCKED_AT else axis for key, axis in record.axes.items()}
+    return replace(record, factors=factors, axes=axes)

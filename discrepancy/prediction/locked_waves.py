@@ -6,13 +6,13 @@ each set of effects.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.by_effects import Effects, with_most
 from discrepancy.prediction.conditions import angle_zero
+from discrepancy.prediction.locked_places import has_place, shifted
 from discrepancy.prediction.unstated_places import fewer_samples
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -52,10 +52,7 @@ class LockedWaves:
         if not waves or not has_place(record):
             return record
         if (id(record), waves) not in self.moved:
-            shift = waves * self.wave
-            factors = {key: value + shift if key == LOCKED_AT else value for key, value in record.factors.items()}
-            axes = {key: axis + shift if key == LOCKED_AT else axis for key, axis in record.axes.items()}
-            self.moved[id(record), waves] = replace(record, factors=factors, axes=axes)
+            self.moved[id(record), waves] = shifted(record, waves * self.wave)
         return self.moved[id(record), waves]
 
     def chosen(self, effects: Effects, predicted: Callable[[Record], Floats], placed: Callable[[Record], Record]) -> dict[str, int]:
@@ -78,8 +75,3 @@ class LockedWaves:
         """Whether loops show other waves than those that are taken with these effects."""
         taken = self.taken(effects)
         return any(count != taken.get(name, 0) for name, count in self.chosen(effects, predicted, placed).items())
-
-
-def has_place(record: Record) -> bool:
-    """Whether it is said where the input was locked."""
-    return LOCKED_AT in record.factors or LOCKED_AT in record.axes
