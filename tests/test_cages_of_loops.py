@@ -12,6 +12,7 @@ from discrepancy.prediction.curves import OverTorque
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
+from fmu_src.threads import Threads
 from reducers.reducer import load_reducer
 
 CLEARANCE = {"needle_clearance_added": 3e-6}
@@ -48,7 +49,7 @@ def left(bench, loop, ripple):
 
 def test_a_loop_at_one_place_tells_where_its_cages_stood(bench, pitch, loop):
     bench.fineness = Fineness([loop])
-    cages = Cages(bench, [loop], lambda record, values: (record, dict(values)))
+    cages = Cages(bench, [loop], lambda record, values: (record, dict(values)), Threads())
     assert cages.place(CLEARANCE)
     ripple = cages.ripple(loop, CLEARANCE)
     truth = OverTorque(bench, loop, cage=SHARE * pitch).directly(CLEARANCE) - OverTorque(bench, loop).directly(CLEARANCE)

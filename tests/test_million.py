@@ -16,6 +16,7 @@ from discrepancy.prediction.fewer import ENOUGH, fewer
 from discrepancy.prediction.fineness import EVERY_SAMPLE, SOLVED, Fineness
 from discrepancy.prediction.observe import ripples_of_cages
 from discrepancy.problem import Record
+from fmu_src.threads import Threads
 
 TURN = 2.0 * np.pi
 ORDERS = {"output shaft": (1.0, 2.0), "ring pins": (78.0,)}
@@ -154,7 +155,7 @@ def test_the_ripple_is_computed_at_so_many_places_that_nobody_sees_what_is_misse
     """Two runs of one condition share them: the second costs nothing."""
     bench, record = Bench(load_model("RV20E-121-rigid").reducer, {}), curve(400, noise=2e-7)
     bench.fineness = Fineness([record])
-    cages = Cages(bench, [record], lambda r, values: dict(values))
+    cages = Cages(bench, [record], lambda r, values: dict(values), Threads())
     shares = np.array([0.1, 0.37, 0.81])
     exact = np.array(ripples_of_cages(bench, record, {}, shares, True))
     few = np.array([np.zeros(400), *ripples_of_cages(bench, record, {}, (0.25, 0.5, 0.75), True)])

@@ -11,6 +11,7 @@ import numpy as np
 
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.outlying_samples import bridged
+from discrepancy.prediction.apart import apart
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
@@ -19,7 +20,7 @@ from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
 from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record, is_unplaced
 from fmu_src.arrays import Floats
-from fmu_src.progress import task
+from fmu_src.threads import Threads
 
 # Samples that a ripple can be found in, and the form of a loop.
 LONG, LONG_LOOP = 40, 16
@@ -43,9 +44,9 @@ AsSeen = Callable[[Record, Mapping[str, float]], tuple[Record, dict[str, float]]
 class Cages:
     """Corrections by run, for the base model and for sets of effects; ``amplitudes`` says by name where an effect is off."""
 
-    def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen):
-        self.bench, self.as_seen = bench, as_seen
-        self.records = [bridged(r) for r in records if tells(r) or is_unplaced(r)]
+    def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen, threads: Threads):
+        self.bench, self.as_seen, self.threads = bench, as_seen, threads
+        self.records = apart([bridged(r) for r in records if tells(r) or is_unplaced(r)])
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
 
@@ -60,14 +61,14 @@ class Cages:
 
     def place(self, values: Mapping[str, float]) -> bool:
         """Find the cages with ``values``; False if there is nothing to find them by."""
-        found: dict[str, Floats] = {}
-        with task("placing the roller cages", total=len(self.records)) as placing:
-            for record in self.records:
-                seen, own = self.as_seen(record, values)
-                # A mean over positions of the cranks is one over those of the cages.
-                if tells(seen):
-                    found[record.name] = self.found(seen, own)
-                placing.advance()
+
+        def one(record: Record) -> Floats | None:
+            seen, own = self.as_seen(record, values)
+            # A mean over positions of the cranks is one over those of the cages.
+            return self.found(seen, own) if tells(seen) else None
+
+        made = self.threads.told("placing the roller cages", one, self.records, lambda record: record.name)
+        found = {record.name: ripple for record, ripple in zip(self.records, made) if ripple is not None}
         self.ripples[self.effects(values)] = found
         return bool(found)
 

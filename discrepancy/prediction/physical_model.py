@@ -15,6 +15,7 @@ from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
 from discrepancy.prediction.angle_zeros import angle_zeros, best_zeros
+from discrepancy.prediction.apart import apart
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects
@@ -101,7 +102,7 @@ class PhysicalModel:
         # No FMU can be told where its cages stand; what they change is the same in process.
         in_process = Bench(model.reducer, present) if fmus else self.bench
         self.lags = Lags(self.bench, self.records)
-        self.cages = Cages(in_process, self.records, self.as_seen)
+        self.cages = Cages(in_process, self.records, self.as_seen, self.threads)
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
         if zeros is None:
@@ -233,7 +234,10 @@ class PhysicalModel:
 
     def shared(self, which: Sequence[int], asked: Asked, beside: Asked | None = None, rough: bool = False, changes: Changes = CHANGES) -> list[Floats]:
         """Predictions on all threads."""
-        return self.threads.map(lambda i: self.predicted(self.records[i], asked, beside, rough, changes), which)
+        order = apart([self.records[i] for i in which])
+        made = self.threads.map(lambda record: self.predicted(record, asked, beside, rough, changes), order)
+        found = {id(record): prediction for record, prediction in zip(order, made)}
+        return [found[id(self.records[i])] for i in which]
 
     def one(self, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:
         """Prediction of a record, which need not be one of the campaign's."""

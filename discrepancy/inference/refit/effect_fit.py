@@ -32,6 +32,8 @@ LAST_STEPS = 30
 EXACT_EVERY = 3
 # Shortenings of one step of a joint fit.
 MOST_DAMPED = 6
+# Of what a descent must still gain, what it gains at least from sensitivities that are taken anew; else it will not in the steps that it has.
+STUCK = 0.02
 # A fit that is reported is renewed so often, until its chi-square stands still by this.
 RENEWALS, STILL = 4, 2e-3
 # A search stands still by this already.
@@ -56,9 +58,11 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     frozen = Frozen(space, candidates, least)
     own, nuisances = frozen.own, space.model.nuisances
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
-    values, converged, columns = _search(frozen, candidates, [
-        {p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own} for start in starts
-    ], widely)  # fmt: skip
+    begins = [{p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own} for start in starts]
+    values, converged, columns = _search(frozen, candidates, begins, widely)
+    anew = _off(nuisances) | begins[0]
+    if frozen.misled and not widely:
+        return _kept_if_better(space, _jointly(space, parameters, anew, names, least=least), own)
     promised, residual = frozen.cost(values)
     full = {**frozen.nuisances_with(residual), **values}
     if _cost(space, Box(parameters), full)[0] > space.base.chi2:
@@ -67,18 +71,26 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     every = np.column_stack([frozen.jacobian, columns])
     if frozen.hopeless(promised, *frozen.equations(frozen.part.array(values), residual, columns)):
         return fit_of(parameters, full, space.residual(full), every, names, False)
-    found = _finished(space, _polish(space, parameters, full, every, names, converged, promised), least)
+    found = _polish(space, parameters, full, every, names, converged, promised)
+    if found.chi2 < space.base.chi2:
+        found = _finished(space, found, least)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
-        anew = {**{p.name: p.off for p in nuisances}, **{p.name: starts[0].get(p.name, p.off) for p in own}}
-        found = min(found, _jointly(space, parameters, anew, names), key=lambda f: f.chi2)
+        found = min(found, _jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
     if widely:
         found = _from_elsewhere(space, found, candidates, least)
-    if found.chi2 > space.base.chi2:
-        # Whatever the search has lost: switched off, an effect is as good as none.
-        off = {**space.base.values, **{p.name: p.off for p in own}}
-        found = fit_of(parameters, off, space.base.residual, every, names, False)
-    return found
+    return _kept_if_better(space, found, own)
+
+
+def _off(parameters: Sequence[Parameter]) -> dict[str, float]:
+    return {p.name: p.off for p in parameters}
+
+
+def _kept_if_better(space: Workspace, fit: Fit, own: Sequence[Parameter]) -> Fit:
+    """The fit, or whatever a search has lost: switched off, an effect is as good as none."""
+    if fit.chi2 <= space.base.chi2:
+        return fit
+    return fit_of(fit.parameters, {**space.base.values, **_off(own)}, space.base.residual, fit.jacobian, fit.candidates, False)
 
 
 def _from_elsewhere(space: Workspace, fit: Fit, candidates: Sequence[Candidate], least: float) -> Fit:
@@ -90,7 +102,7 @@ def _from_elsewhere(space: Workspace, fit: Fit, candidates: Sequence[Candidate],
     own = {p.name: fit.values[p.name] for c in candidates for p in c.parameters}
     forms = [own, *({**own, **shapes} for c in candidates for shapes in c.shape_grid)]
     found = [(*model.placed_anew({**fit.values, **form}), form) for form in forms]
-    off = {p.name: p.off for p in model.nuisances}
+    off = _off(model.nuisances)
     sure = [i for i in space.training if i not in model.unplaced()]
     for _, places, form in sorted(found, key=itemgetter(0))[:ELSEWHERE]:
         if not places:
@@ -196,7 +208,11 @@ def _search(
     def cost(values: Mapping[str, float]) -> float:
         return frozen.total(frozen.part.array(values))[0]
 
-    found = [_descend(frozen, start) for start in starts]
+    found = []
+    for start in starts:
+        found.append(_descend(frozen, start))
+        if frozen.misled and not widely:
+            return found[-1]
     if min(cost(f[0]) for f in found) > frozen.space.base.chi2:
         # Worse than no effect at all: the start lay where the effect runs away, and slopes there lead nowhere.
         found += [_descend(frozen, start) for start in halved([p for c in candidates for p in c.amplitudes], starts[0], cost, frozen.space.base.chi2)]
@@ -233,7 +249,7 @@ def _descend(frozen: Frozen, values: Mapping[str, float], iterations: int = 12) 
     c, fresh = frozen.columns(box.named(x)), True
     for _ in range(iterations):
         normal, gradient = frozen.equations(x, r, c)
-        if frozen.hopeless(cost, normal, gradient):
+        if frozen.hopeless(cost, normal, gradient) or frozen.misleads(box.named(x), cost, r):
             break
         better = False
         for _ in range(6):
@@ -250,6 +266,8 @@ def _descend(frozen: Frozen, values: Mapping[str, float], iterations: int = 12) 
             if not fresh or np.max(np.abs(step) / box.scale) < 1e-4:
                 break
         gain = cost - new if better else 0.0
+        if fresh and gain < STUCK * (cost - frozen.least):
+            break
         if better:
             move = trial - x
             promised = 2.0 * gradient @ move - move @ normal @ move
@@ -309,8 +327,11 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
 
 
 def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...],
-             evaluations: int = JOINT_STEPS, exact_every: int = EXACT_EVERY) -> Fit:  # fmt: skip
-    """All parameters together, with sensitivities that follow, after Levenberg and Marquardt: dear, but from anywhere and along bent valleys."""
+             evaluations: int = JOINT_STEPS, exact_every: int = EXACT_EVERY, least: float = np.inf) -> Fit:  # fmt: skip
+    """All parameters together, with sensitivities that follow, after Levenberg and Marquardt: dear, but from anywhere and along bent valleys.
+
+    Left where it will not come below the chi-square ``least``.
+    """
     box = Box(parameters)
     secants = Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
 
@@ -321,11 +342,16 @@ def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[s
 
     x = np.clip(box.array(start), box.lower, box.upper)
     cost, r = cost_of(x)
-    damping, spent, converged = 1e-3, 1, False
+    damping, spent, converged, renewed_at = 1e-3, 1, False, np.inf
     while spent < evaluations:
         columns = secants.columns(x)
         normal = (columns.T @ columns + np.diag(box.precision)) * np.outer(box.scale, box.scale)
         gradient = box.scale * (columns.T @ r - box.prior_gradient(x))
+        if secants.exact and np.isfinite(least):
+            stuck = renewed_at - cost < STUCK * (cost - least)
+            if stuck or not may_reach(fit_of(parameters, box.named(x), r, columns, candidates, False), least):
+                break
+            renewed_at = cost
         shift = np.diag(np.maximum(np.diag(normal), 1e-9 * np.max(np.diag(normal)) + 1e-300))
         for _ in range(MOST_DAMPED):
             trial = np.clip(x + box.step(x, normal + damping * shift, gradient), box.lower, box.upper)
@@ -344,6 +370,6 @@ def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[s
                 converged = True
                 break
             secants.forget()
-    if not secants.exact:
+    if not secants.exact and cost < space.base.chi2:
         secants.forget()
     return fit_of(parameters, box.named(x), r, secants.columns(x), candidates, converged)

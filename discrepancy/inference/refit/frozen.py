@@ -13,6 +13,8 @@ from fmu_src.arrays import Floats
 HOPE = 3.0
 # Of what an effect gains, what it may gain more where the nuisances follow it, whose sensitivities are those of the base fit.
 FOLLOW = 0.1
+# Share of the base fit's chi-square below which much is promised.
+MUCH = 0.5
 
 
 class Frozen:
@@ -31,6 +33,8 @@ class Frozen:
         # A nuisance that the base model hardly shows stays where it is, rather than running to its bounds.
         width = 50.0 * (self.box.upper - self.box.lower)
         self.inverse = np.linalg.pinv(space.base.normal + np.diag(width**-2.0), hermitian=True)
+        # Not known before much is promised.
+        self.misled: bool | None = None
         self.base = dict(zip(space.training, space.predictions(self.theta, space.training)))
 
     def residual(self, values: Mapping[str, float]) -> Floats:
@@ -68,6 +72,15 @@ class Frozen:
         normal = self.information(columns, cross) + np.diag(self.part.precision)
         pull = self.part.prior_gradient(values)
         return normal, columns.T @ residual - cross.T @ self.inverse @ self.nuisance_gradient(residual) - pull
+
+    def misleads(self, values: Mapping[str, float], cost: float, residual: Floats) -> bool:
+        """Whether the first ``cost`` that promises much, at ``values``, is no gain at all where the nuisances follow: they bend too much to be
+        projected out."""
+        base = self.space.base.chi2
+        if self.misled is None and cost < MUCH * base:
+            r = self.space.residual({**self.nuisances_with(residual), **values})
+            self.misled = float(r @ r) > base
+        return bool(self.misled)
 
     def hopeless(self, cost: float, normal: Floats, gradient: Floats) -> bool:
         """Whether a descent that stands where these equations hold will not come below what it must."""
