@@ -10,6 +10,8 @@ from fmu_src.arrays import Floats
 
 # Of the range of the torque: what is nearer has the torque of the start.
 SAME = 0.02
+# A loop that ends this much before the torque of its start is followed on along its last step: benches leave out samples about no torque.
+BEFORE = 0.04
 # Of how far the branches stand apart at that torque: a loop from rest begins half-way between them.
 NEARER = 0.25
 # Of the range of the turning: branches that are nearer show neither play nor friction, and where they begin does not matter.
@@ -35,7 +37,7 @@ def first_sense(torques: Floats) -> float:
 
 def passing(beyond: Floats, turning: Floats) -> float | None:
     """The turning where ``beyond`` comes to 0 from below for the last time, or so near to it that its way there is plain; None if it does not."""
-    near = -SAME * float(np.ptp(beyond))
+    near = -BEFORE * float(np.ptp(beyond))
     come = np.flatnonzero((beyond[:-1] < near) & (beyond[1:] >= near))
     if not len(come):
         return None

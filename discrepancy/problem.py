@@ -218,6 +218,10 @@ class Placing(Protocol):
         """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
         ...
 
+    def waves_on(self, values: Mapping[str, float]) -> Sequence[dict[str, float]]:
+        """Other places that look alike without the effects in ``values``, and may not with them: by name, each to be tried at once."""
+        ...
+
 
 @runtime_checkable
 class Cheaper(Protocol):

@@ -63,8 +63,12 @@ class Curve(Protocol[Nodes]):
         """The signal at nodes."""
         ...
 
-    def directly(self, values: Values) -> Floats:
-        """The signal at every sample."""
+    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
+        """The signal at every sample, or so far ahead of each."""
+        ...
+
+    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
+        """What the record shows of a signal that is known ``at`` its samples, or so far ahead of each."""
         ...
 
 
@@ -101,9 +105,24 @@ class OverAngle:
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
-    def directly(self, values: Values) -> Floats:
+    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
         angles, samples = self.support(None, values)
-        return samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
+        found = samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
+        return found if ahead is None else further(self.places(values), found, ahead)
+
+    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
+        """An encoder on the output turns with the error itself: a sample is shown at the input's angle over the ratio and the error there.  Orders of
+        a large one show at twice themselves so (an order 80 of 20 arcsec: 0.08 arcsec of order 160)."""
+        found = at(None)
+        if not self.record.of_output or self.name != "transmission_error":
+            return found
+        behind = found - found.mean()
+        angles, place = as_turned(self.bench, self.record, {})
+        slopes = np.abs(np.diff(found[np.argsort(place)])) / np.maximum(np.abs(np.diff(angles)), 1e-12)
+        if len(found) < LEAST_SAMPLES or np.abs(np.diff(angles)).min() <= 0.0 or np.abs(behind).max() * np.median(slopes) < self.bench.allowed(self.record):
+            return found
+        # Twice is enough: what is left is the third power of it.
+        return at(-behind)
 
     def support(self, nodes: AngleNodes | None, values: Values) -> tuple[Floats, Callable[[Floats], Floats]]:
         """Angles [rad] at which to compute, and how the record's samples follow from there: ``nodes``, else the samples' own, near their anchor."""
@@ -174,8 +193,11 @@ class OverTorque:
     def run(self, values: Values, nodes: TorqueNodes) -> Floats:
         return self.along(values, nodes.torques)
 
-    def directly(self, values: Values) -> Floats:
+    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
         return self.along(values, self.places(values))
+
+    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
+        return at(None)
 
     def along(self, values: Values, torques: Floats) -> Floats:
         path, places = self.way(values, torques)
@@ -191,18 +213,27 @@ def moved(angles: Floats, series: Floats, by: float) -> Floats:
     return SplineNodes(angles).samples(series, angles + by) if by else series
 
 
+def further(angles: Floats, series: Floats, ahead: Floats) -> Floats:
+    """What a ``series`` of samples at ``angles`` [rad], in any order, is ``ahead`` (n,) of each."""
+    order = np.argsort(angles, kind="stable")
+    return SplineNodes(angles[order]).samples(series[order], angles + ahead)
+
+
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
     fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
     changed, exact = bool(curve.bench.relevant(values, True)), curve.exact()
     if coarse is None or (fine is None and not changed):
-        return exact.directly(values)
-    places = curve.places(values)
-    # The base model's is had but once at every sample.
-    found = exact.directly(curve.unchanged(values)) if fine is None else fine.samples(exact.run({}, fine), places)
-    if changed:
-        found = found + coarse.samples(curve.run(values, coarse) - curve.run({}, coarse), places)
-    return found
+        return curve.seen(lambda ahead: exact.directly(values, ahead))
+    change = curve.run(values, coarse) - curve.run({}, coarse) if changed else None
+
+    def at(ahead: Floats | None) -> Floats:
+        places = curve.places(values) if ahead is None else curve.places(values) + ahead
+        # The base model's is had but once at every sample.
+        found = exact.directly(curve.unchanged(values), ahead) if fine is None else fine.samples(exact.run({}, fine), places)
+        return found if change is None else found + coarse.samples(change, places)
+
+    return curve.seen(at)
 
 
 def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:

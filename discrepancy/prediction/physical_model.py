@@ -14,7 +14,7 @@ from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
-from discrepancy.prediction.angle_zeros import angle_zeros, best_zeros
+from discrepancy.prediction.angle_zeros import SURELY, angle_zeros, best_zeros
 from discrepancy.prediction.apart import apart
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
@@ -22,7 +22,7 @@ from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
-from discrepancy.prediction.conditions import LAG_SHARE, Values, at_rest, distinct_conditions, identity
+from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
@@ -34,6 +34,7 @@ from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expand
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
+from discrepancy.prediction.whitening import gain
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import RunFault
@@ -96,7 +97,8 @@ class PhysicalModel:
         self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
         # One wave of the pattern in the transmission error that says where angles count from [rad of the output]: discs take turns at the pins.
-        self.wave = 2.0 * np.pi / (model.reducer.topology.pins * model.reducer.topology.discs)
+        self.discs = model.reducer.topology.discs
+        self.wave = 2.0 * np.pi / (model.reducer.topology.pins * self.discs)
         declared = tuple(p for n in nuisances for p in expanded(n, self.records))
         self.declared = declared
         # No FMU can be told where its cages stand; what they change is the same in process.
@@ -112,7 +114,7 @@ class PhysicalModel:
             bench.zeros.update(self.zeros)
         self.locked_places = LockedPlaces(self.records, self.zeros, self.bench.ratio)
         turn = 2.0 * np.pi * abs(self.bench.ratio)
-        self.locked_waves = LockedWaves(self.records, list(self.zeros), self.wave * abs(self.bench.ratio), model.reducer.topology.discs)
+        self.locked_waves = LockedWaves(self.records, list(self.zeros), self.wave * abs(self.bench.ratio), self.discs)
         self.unstated_places = UnstatedPlaces(self.records, turn, turn / model.reducer.topology.pins)
         self.search_bench = in_process.rougher.forgetful()
         if zeros is None:
@@ -131,7 +133,7 @@ class PhysicalModel:
 
     def angle_nuisances(self) -> list[Parameter]:
         found = [
-            Parameter(name, "rad", zero, zero - 0.5 * self.wave, zero + 0.5 * self.wave, 1e-3, 0, None,
+            Parameter(name, "rad", zero, zero - (self.discs - 0.5) * self.wave, zero + (self.discs - 0.5) * self.wave, 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip
@@ -163,6 +165,29 @@ class PhysicalModel:
         """See ``problem.Placing``: inputs whose place was found are locked where the discs have changed places."""
         every = self.standing() | dict(values)
         return self.unstated_places.half_a_turn_on(self.cages.effects(every), every, partial(self.loop_at, every))
+
+    def waves_on(self, values: Mapping[str, float]) -> list[dict[str, float]]:
+        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places, of which transmission errors say that they are better."""
+        every, found = self.standing() | dict(values), []
+        for name, zero in self.zeros.items():
+            # By load one: others repeat it.
+            few = {r.factors.get("load"): r for r in self.cages.records if r.quantity == ERROR and angle_zero(r) == name and not r.held_out}
+            here = [self.left_anew(record, every) for record in few.values()]
+            for k in range(1, self.discs):
+                further = every[name] + k * self.wave
+                there = further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave
+                left = [self.left_anew(record, every | {name: there}) for record in few.values()]
+                if sum(gain(a, b) for a, b in zip(here, left)) > SURELY:
+                    found.append({name: there})
+        return found
+
+    def left_anew(self, record: Record, values: Mapping[str, float]) -> Floats:
+        """What is left of a transmission error [rad], its cages placed anew."""
+        asked = self.asked(values)
+        own = self.own(record, asked)
+        found = self.observed(record, own, None, False) + self.cages.found(record, own)
+        left: Floats = record.values - (self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found)
+        return left - left.mean()
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""

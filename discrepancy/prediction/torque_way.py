@@ -48,14 +48,18 @@ def inwards(first: float, last: float) -> Floats:
 
 def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:
     """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
-    the drive goes from sample to sample too.  Below ``least`` nothing is put in: the output floats there."""
-    if np.abs(np.diff(path)).max(initial=0.0) <= longest:
-        return path, np.arange(len(path))
+    the drive goes from sample to sample too.
+
+    Below ``least`` nothing is put in: the output floats there.  It goes through from the same torque before to the same beyond, wherever samples lie:
+    what friction keeps of the play depends on the step through it (2.5 arcsec at the sample after it, beside oval discs).
+    """
     parts, places, count = [path[:1]], [0], 1
     for a, b in pairwise(path):
-        between = np.linspace(a, b, int(np.ceil(abs(b - a) / longest)) + 1)[1:-1]
-        between = between[np.abs(between) >= least]
-        parts += [between, np.array([b])]
-        count += len(between) + 1
+        stops = [stop for stop in (np.copysign(least, a), np.copysign(least, b)) if a * b < 0.0 and min(a, b) < stop < max(a, b)]
+        for begin, end in pairwise((a, *stops, b)):
+            between = np.linspace(begin, end, max(int(np.ceil(abs(end - begin) / longest)), 1) + 1)[1:-1]
+            between = between[np.abs(between) >= least]
+            parts += [between, np.array([end])]
+            count += len(between) + 1
         places.append(count - 1)
     return np.concatenate(parts), np.array(places)

@@ -94,10 +94,10 @@ class Predictions:
             return self.model.glimpse(self.active(values), self.active(base), which, first_order)
         return np.concatenate(self.changes(values, base, which, first_order))
 
-    def settle(self, values: Mapping[str, float]) -> None:
-        """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten."""
+    def settle(self, values: Mapping[str, float]) -> bool:
+        """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten.  False if it has none."""
         if not (isinstance(self.model, Settling) and self.model.settle(self.active(values))):
-            return
+            return False
         effects = self.effects(self.active(values))
         for store in (self.store, self.rough_store):
             # Other threads may add to them meanwhile.
@@ -107,6 +107,7 @@ class Predictions:
         for pair in list(self.beside_store):
             if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
                 self.beside_store.pop(pair, None)
+        return True
 
     def unsettled(self, values: Mapping[str, float]) -> bool:
         """Whether what was found in ``settle`` is that of other values."""

@@ -13,6 +13,8 @@ from discrepancy.problem import Candidate, Placing
 
 # Of chi-square: by so much a fit from another start is another optimum.
 BETTER = 1.0
+# Chi-square by which another zero of angles is surely the right one.
+SURELY = 25.0
 # Chi-square by sample of a fit that may leave something.
 LEFT = 1.0
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
@@ -36,8 +38,9 @@ class Refits:
         # What a fit's chi-square fell by when it was made in earnest.
         self.gained: dict[frozenset[str], float] = {}
         self.widely: set[frozenset[str]] = set()
-        # Where effects stood when the cages were placed with them, and the rough chi-square there.
+        # Where effects stood when the cages were placed with them, and the rough chi-square there; whether there were any to be placed.
         self.settled: dict[frozenset[str], tuple[dict[str, float], float]] = {}
+        self.places: dict[frozenset[str], bool] = {}
 
     def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
             least: float = np.inf) -> Refit:  # fmt: skip
@@ -86,10 +89,11 @@ class Refits:
         roughly = self.settled[key][1]
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
         for _ in range(AGAIN):
-            if not self.space.predictions.unsettled(better.fit.values):
+            if not (self.space.predictions.unsettled(better.fit.values) or self.has_moved(key, better)):
                 break
             self.settle(key, better)
             better = finished(self.space, result.candidates, *in_earnest(self.space, better.fit, result.candidates))
+        better = self.a_wave_on(better)
         for _ in range(AGAIN):
             other = self.otherwise(better)
             if other.fit.chi2 > better.fit.chi2 - BETTER:
@@ -98,6 +102,18 @@ class Refits:
         self.gained[key] = max(roughly - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
+
+    def a_wave_on(self, result: Refit) -> Refit:
+        """The refit with zeros of angles that looked alike without its effects, if one is surely better where it stands."""
+        model = self.space.model
+        for places in model.waves_on(result.fit.values) if isinstance(model, Placing) else ():
+            start = replace(result.fit, values={**result.fit.values, **places})
+            self.space.predictions.settle(start.values)
+            if there(self.space, start).chi2 < result.fit.chi2 - SURELY:
+                result = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
+            else:
+                self.space.predictions.settle(result.fit.values)
+        return result
 
     def otherwise(self, result: Refit) -> Refit:
         """The refit with what the model has placed at the other place that looks alike, if something may be left of the misfit."""
@@ -123,8 +139,14 @@ class Refits:
     def settle(self, key: frozenset[str], result: Refit) -> None:
         """What is placed beside an effect (the roller cages) placed with this one, once."""
         if key not in self.settled or self.settled[key][0] != result.fit.values:
-            self.space.predictions.settle(result.fit.values)
+            self.places[key] = self.space.predictions.settle(result.fit.values)
             self.settled[key] = result.fit.values, result.fit.chi2
+
+    def has_moved(self, key: frozenset[str], result: Refit) -> bool:
+        """Whether a fit has gone further from where the cages were placed than it is known: they hold it back, and it holds them."""
+        before, fit = self.settled[key][0], result.fit
+        far = np.abs([fit.values[p.name] - before[p.name] for p in fit.parameters])
+        return self.places[key] and bool(np.any(far > np.sqrt(np.diag(result.covariance))))
 
     def gained_in_earnest(self, result: Refit) -> float:
         """By how much rough predictions have made a fit look worse than it is; others may look as much too bad."""
