@@ -87,6 +87,23 @@ def test_a_file_that_cannot_be_read_takes_nothing_from_the_others(tmp_path, caps
     assert folder.campaign.read_text(encoding="utf-8") == found["text"]
 
 
+def test_a_reducer_that_the_files_name_is_taken_until_another_is_chosen(tmp_path, capsys):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    for k in (1, 2):
+        folder.new_file(f"loop_20degC_{k}.csv", f"Reductor: RV-20E-121\n\n{CSV}".encode())
+    found = view(folder)
+    assert found["proposal"]["reducer"] == "RV20E-121" and not found["proposal"]["needs"] and "--reducer RV20E-121" in found["command"]
+    save(folder)
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+    wish(folder, {"reducer": "RV20E-121-rigid"})
+    assert view(folder)["proposal"]["reducer"] == "RV20E-121-rigid"
+    wish(folder, {"reducer": ""})
+    assert not view(folder)["proposal"]["reducer"]
+
+
 def test_no_folder_is_made_of_a_mistyped_path(tmp_path):
     (tmp_path / "bench").mkdir()
     (tmp_path / "c.csv").write_text(CSV)
