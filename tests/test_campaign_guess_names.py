@@ -139,3 +139,14 @@ def test_many_turns_in_a_name_are_turns_a_minute(text, speed):
     found = proposed(Path(f"{text}.csv"))
     assert found.numbers["speed"] == (speed, "rpm") and "{speed:rpm}" in found.pattern
     assert "speed" not in proposed(Path("te_50Nm_15U_1.csv")).numbers and "speed" not in proposed(Path("te_50Nm_2 giri_1.csv")).numbers
+
+
+def test_a_pattern_says_where_the_input_was_locked(tmp_path):
+    """It counts before what the head says; in degrees, or in the unit behind it; one of another kind is refused."""
+    for file in list(loop_files(tmp_path, "Schleife 0° 2", "Schleife 120° 2").glob("*.csv")):
+        file.write_text("Eingang gesperrt bei 40 deg\n\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
+    proposal = propose([tmp_path], Wishes("RV20E-121", names=("Schleife {locked_at}° {replicate}",)))
+    assert sorted(stated["locked_at"] for stated in proposal.conditions.values()) == ["0 deg", "120 deg"]
+    assert by_pattern(Path("loop_1.5rad_1.csv"), "loop_{locked_at}rad_{replicate}").numbers == {"locked_at": (1.5, "rad")}
+    with pytest.raises(InputFault, match="'rpm' behind {locked_at} is a unit of speed, not of angle"):
+        by_pattern(Path("loop_15rpm_1.csv"), "loop_{locked_at}rpm_{replicate}")

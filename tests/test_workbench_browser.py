@@ -231,12 +231,18 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     page.select_option("#measured", "RV20E-121")
     assert page.get_by_label("quantity", exact=True).count() == 2
     page.get_by_text("The 3 numbers in these names (20, 80, 167) are").wait_for()
-    page.get_by_text("2 names that differ by numbers make conditions of their own").wait_for()
+    page.get_by_text("The 2 numbers in these names (0, 40) are").wait_for()
+    loads, places = page.get_by_label("numbers in the names").nth(0), page.get_by_label("numbers in the names").nth(1)
+    # Degrees are where the input was locked, and of a transmission error no input is.
+    assert places.locator("option").all_inner_texts() == ["names alone", "input locked at [°]"] and "locked" not in loads.inner_text()
+    places.select_option(label="input locked at [°]")
+    page.get_by_text("The 2 numbers in these names").wait_for(state="detached")
     page.get_by_label("numbers in the names").select_option(label="load torque [N·m]")
     page.get_by_text("The 3 numbers in these names").wait_for(state="detached")
     assert page.get_by_label("pattern of the names").first.input_value() == "Drehfehler_{load}_{speed}rpm_{temperature}C_{replicate}"
     loads = [page.get_by_label("load torque", exact=True).nth(k).input_value() for k in range(5)]
-    assert sorted(filter(None, loads)) == ["167", "20", "80"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
+    places = [page.get_by_label("locked at", exact=True).nth(k).input_value() for k in range(5)]
+    assert sorted(filter(None, loads)) == ["167", "20", "80"] and sorted(filter(None, places)) == ["0", "40"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
 
 
 def test_units_typed_in_cells_are_read_or_told_at_once(bench, tmp_path):

@@ -156,7 +156,7 @@ function group(bag, members) {
     value: first.names,
     size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
-    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
+    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {locked_at} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
     onchange: () => say(pattern.value.trim()),
   });
   return h(
@@ -180,7 +180,7 @@ function group(bag, members) {
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
-    numbersSaid(patterns, say),
+    numbersSaid(members, Boolean(quantity.roles.locked_at), say),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
     table(
       COLUMNS,
