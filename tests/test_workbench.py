@@ -355,6 +355,8 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
 
     bounded = slider(Parameter("clearance", "m", 0.0, 0.0, 1e-3, 2e-6, 1), True)
     assert (bounded["low"], round(bounded["high"], 9), bounded["unit"], bounded["bounds"]) == (0.0, 10.0, "µm", [0.0, 1000.0])
+    assert bounded["of"] == ""
+    assert slider(Parameter("drift", "1", 0.0, -5.0, 5.0, 0.01, description="drift in a run over the mean size (0: off)"), True)["of"] == "drift in a run over the mean size"
     carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
 

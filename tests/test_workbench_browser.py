@@ -231,6 +231,8 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     page.select_option("#measured", "RV20E-121")
     assert page.get_by_label("quantity", exact=True).count() == 2
     page.get_by_text("The 3 numbers in these names (20, 80, 167) are").wait_for()
+    # What tells them apart is seen before anything is opened.
+    assert page.get_by_text("3 runs: 167, 20, 80", exact=True).get_attribute("title").splitlines()[0] == "Drehfehler_167_15rpm_40C_1.csv"
     page.get_by_text("The 2 numbers in these names (0, 40) are").wait_for()
     loads, places = page.get_by_label("numbers in the names").nth(0), page.get_by_label("numbers in the names").nth(1)
     # Degrees are where the input was locked, and of a transmission error no input is.

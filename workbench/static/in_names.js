@@ -8,6 +8,20 @@ const FIELDS = { load: "load torque [N·m]", speed: "speed [rpm]", temperature: 
 // What stands right behind a number that is an angle: of a condition it is the one at which the input was locked.
 const DEGREES = /^\s?(°|deg|grad|gradi|grados|graus|degrés?|度)(?!\p{L})/iu;
 
+// Names by what they differ in alone, words kept whole; as they are where that is all of one or nothing of it.
+export function apart(names) {
+  if (names.length < 2) return names;
+  const parted = names.map((name) => name.match(/[^\s_]+[\s_]*/gu) ?? [name]),
+    least = Math.min(...parted.map((parts) => parts.length)),
+    same = (place) => parted.every((parts) => parts.at(place) === parted[0].at(place));
+  let before = 0,
+    behind = 0;
+  while (before < least && same(before)) before++;
+  while (before + behind < least && same(-1 - behind)) behind++;
+  const found = parted.map((parts) => parts.slice(before, parts.length - behind).join("").replace(/[\s_]+$/u, ""));
+  return found.every(Boolean) ? found : names;
+}
+
 export const family = (pattern) => pattern.split(NUMBER).map((part, i) => (i % 2 ? "0" : part)).join("");
 
 // The numbers of one place in patterns of one family, whether they are angles, and the pattern with a field there; null where several places differ, or a
