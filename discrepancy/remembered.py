@@ -21,8 +21,11 @@ from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.verdict import Answer, AnswerSoFar, diagnose
 from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
+from fmu_src.progress import task
 from fmu_src.source_hash import ROOT
 
+# What the task of a diagnosis that is computed from its beginning is called.
+WHOLE = "the whole diagnosis"
 Kept = TypeVar("Kept", Answer, Diagnostician)
 MARK = b"rvwear diagnosis 1\n"
 # Larger ones are not kept, and together they take no more than this [bytes].
@@ -36,17 +39,25 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     if answer is None:
         place = place_of(file, campaign, settings)
         begun = place.with_suffix(".begun")
-        doctor = read(begun, Diagnostician)
-        if doctor is not None:
-            doctor.space.threads.jobs = jobs
+        doctor = interrupted(file, campaign, settings, jobs)
         try:
-            answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
+            # The rest says nothing of how long the next one takes.
+            with task(WHOLE if doctor is None else "the rest of the diagnosis"):
+                answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
         except AnswerSoFar as stop:
             write(begun, stop.answer.doctor)
             raise
         write(place, answer)
         begun.unlink(missing_ok=True)
     return answer
+
+
+def interrupted(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician | None:
+    """What a diagnosis had found when it was interrupted, if one was."""
+    doctor = read(place_of(file, campaign, settings).with_suffix(".begun"), Diagnostician)
+    if doctor is not None:
+        doctor.space.threads.jobs = jobs
+    return doctor
 
 
 def remembered(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer | None:

@@ -1,6 +1,7 @@
 """The loop from a campaign to a better model, on small campaigns of the virtual bench with known additions."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
+from fmu_src.progress import told_to
 
 pytestmark = pytest.mark.usefixtures("shared_runs")
 NOISE = {"transmission_error": 2e-6, "input_torque": 0.01, "lost_motion": 5e-6}
@@ -103,7 +105,12 @@ def test_nothing_is_left_to_find_in_the_extended_model(file, wide):
 
 
 def test_effect_that_only_fits_noise_is_refused(file):
-    extension = extend(file, campaign_of(file, {}, 3), ["pin_position_errors.scatter"])
+    heard = []
+    with told_to(SimpleNamespace(begin=lambda task: heard.append(task.what), end=lambda task: None, say=lambda text: None)):
+        extension = extend(file, campaign_of(file, {}, 3), ["pin_position_errors.scatter"])
+    # Minutes, of which nothing said what they were for.
+    steps = [what for what in heard if what.startswith(("fitting the base", "looking", "fitting pin", "judging"))]
+    assert steps == ["fitting the base model", "looking at what pin_position_errors.scatter would do", "fitting pin_position_errors.scatter", "judging it on unused runs"]
     assert extension.verdict in (DID_NOT_HELP, NOT_PROVEN)
     assert extension.file.effects == {} and extension.file.steps[0]["kept"] is False
 

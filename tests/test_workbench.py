@@ -287,6 +287,37 @@ def test_a_job_tells_the_folder_and_is_found_by_the_next_server(tmp_path):
     assert found["state"] == jobs.FAILED and "campaign.toml" in found["fault"]
 
 
+def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_does(tmp_path, monkeypatch):
+    """The whole of a diagnosis had no estimate; one that was stopped gives none."""
+    from discrepancy.remembered import WHOLE
+    from fmu_src.progress import say, task, told_to
+    from workbench.work import Teller
+
+    monkeypatch.setattr("fmu_src.durations.cache_folder", lambda name: tmp_path)
+    folder = opened(tmp_path / "b")
+
+    def told(passed, stopped=False):
+        teller = Teller(folder, "diagnose")
+        try:
+            with told_to(teller), task(WHOLE) as whole, task("screening, disc_tooth_errors.ovality"):
+                say("best alone: disc_tooth_errors.ovality, beside disc_tooth_errors of entrada_bloqueada")
+                teller.write(jobs.RUNNING)
+                whole.begun -= passed
+                if stopped:
+                    raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            pass
+        beat = folder.recall("jobs/diagnose/beat")
+        teller.close(jobs.DONE)
+        return beat
+
+    beat = told(600.0)
+    assert beat["tasks"][0]["left"] is None and beat["tasks"][1]["sentence"] == "screening, disc tooth errors (ovality)"
+    assert beat["said"] == ["best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
+    assert told(30.0, stopped=True)["tasks"][0]["before"] == pytest.approx(600.0, abs=2.0)
+    assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
+
+
 def test_a_job_that_is_silent_is_gone(tmp_path):
     folder = opened(tmp_path)
     folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time() - 100.0})
@@ -580,12 +611,16 @@ def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, 
             "training_before": 2.0, "training_after": 1.0, "held_out_before": 2.0, "held_out_after": 1.0}  # fmt: skip
     monkeypatch.setattr(steps, "inputs", lambda folder, given: (file, None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
-    monkeypatch.setattr(extend, "extend", lambda *given, **more: extend.Extension(replace(file, steps=(step,)), step, extend.HELPED))
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: "what was known")
+    asked = []
+    monkeypatch.setattr(extend, "extend", lambda *given, **more: asked.append(more) or extend.Extension(replace(file, steps=(step,)), step, extend.HELPED))
     folder.remember("view", {"model": "RV20E-121", "theme": "dark"})
     place = jobs.place_of(folder, "extend")
     place.mkdir(parents=True)
     assert steps.extend_step(folder, {"model": "RV20E-121", "effects": ["drag"]}, 1, place) is False
     assert folder.recall("view") == {"model": chosen, "theme": "dark"}
+    # After a stop it goes on from there.
+    assert asked[0]["answer"] is None and asked[0]["doctor"] == "what was known"
 
 
 def moved(angle, by):

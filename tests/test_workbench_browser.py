@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import tomllib
 from pathlib import Path
 
@@ -455,6 +456,36 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     # A word that is wider than its place is parted, not cut.
     assert ["".join(parts) for parts, _ in lines] == ["1500rpm_167N.m_warm", "with_einlaufenderungeschmiert_2"]
     assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
+
+
+def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
+    """Adding an effect took minutes without a word; a diagnosis told of its step alone."""
+    folder = opened(bench.folder)
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    part = {"cards": [], "sections": [], "warnings": []}
+    answer = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
+              "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [{"name": "needle_clearance"}], "laws": [], "page": part,
+              "doubts": [], "command": "c"}  # fmt: skip
+    folder.remember("jobs/diagnose/result", answer)
+    far = time.time() + 3600.0
+
+    def at_work(kind, *tasks):
+        for other in ("diagnose", "extend"):
+            state = "running" if other == kind else "stopped"
+            folder.remember(f"jobs/{other}/job", {"kind": other, "given": {"model": "RV20E-121"}, "begun": far})
+            told = [{"done": 0, "total": None, "left": None, "before": None, "what": what, "sentence": what} | more for what, more in tasks]
+            folder.remember(f"jobs/{other}/beat", {"state": state, "at": far, "seconds": 3.0, "said": [], "tasks": told if other == kind else []})
+
+    at_work("extend", ("adding needle_clearance", {}), ("fitting the base model", {}))
+    bench.view("diagnose")
+    page = bench.page
+    page.locator("#doing-extend li").nth(1).wait_for()
+    assert page.locator("#doing-extend li").all_inner_texts() == ["adding needle_clearance", "fitting the base model"]
+    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0, "left": 240.0}), ("screening", {}))
+    page.get_by_text("About 4 min left in all: the last one took 10 min.").wait_for()
+    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0}), ("screening", {}))
+    page.get_by_text("Longer than the last one by now: the last one took 10 min.").wait_for()
+    at_work("")
 
 
 def test_a_sample_aside_stretches_no_axis(bench):

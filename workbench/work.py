@@ -1,14 +1,17 @@
 """The process of a job: ``python -m workbench.work FOLDER KIND``."""
 
 import os
+import re
 import signal
 import sys
 import threading
 import time
 import traceback
+from functools import cache
 from pathlib import Path
 from types import FrameType
 
+from fmu_src.durations import Durations
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import Task, told_to
 from workbench import jobs
@@ -30,6 +33,8 @@ class Teller:
         self.said: list[str] = []
         self.model = str(folder.recall(f"jobs/{kind}/job").get("given", {}).get("model") or "")
         self.stamp = folder.stamp(self.model)
+        # As the command's, which took as long.
+        self.durations = Durations([kind, str(folder.root), self.model])
         self.begun = time.monotonic()
         self.ended = threading.Event()
         self.asked = False
@@ -37,15 +42,17 @@ class Teller:
         self.thread.start()
 
     def begin(self, task: Task) -> None:
+        self.durations.begin(task)
         self.tasks.append(task)
 
     def end(self, task: Task) -> None:
         self.tasks.remove(task)
+        self.durations.end(task)
 
     def say(self, text: str) -> None:
         from discrepancy.page.amounts import with_titles
 
-        self.said.append(with_titles(text))
+        self.said.append(in_words(with_titles(text)))
         del self.said[:-MOST_SAID]
 
     def beat(self) -> None:
@@ -60,7 +67,8 @@ class Teller:
                     signal.raise_signal(signal.SIGINT)
 
     def write(self, state: str, fault: str = "") -> None:
-        tasks = [{"what": t.what, "done": t.done, "total": t.total, "left": t.left, "sentence": t.sentence()} for t in self.tasks[-MOST_TASKS:]]
+        tasks = [{"what": in_words(t.what), "done": t.done, "total": t.total, "left": t.left, "before": t.before, "sentence": in_words(t.sentence())}
+                 for t in self.tasks[-MOST_TASKS:]]  # fmt: skip
         beat = {"state": state, "at": time.time(), "seconds": time.monotonic() - self.begun, "tasks": tasks, "said": self.said, "fault": fault,
                 "stamp": self.stamp}  # fmt: skip
         try:
@@ -75,6 +83,20 @@ class Teller:
         # An effect that is added changes the folder itself: its result is not old by that.
         self.stamp = self.folder.stamp(self.model)
         self.write(state, fault)
+
+
+@cache
+def names_of_effects() -> re.Pattern[str]:
+    from discrepancy.model_file import every_effect
+
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted(every_effect(), key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
+
+
+def in_words(text: str) -> str:
+    """Names of effects as the page has them elsewhere."""
+    from discrepancy.page.amounts import effect_title
+
+    return names_of_effects().sub(lambda name: effect_title(name[0]), text)
 
 
 def interrupt(_: int, __: FrameType | None) -> None:

@@ -54,6 +54,7 @@ export function show(root, context) {
   // What is known by now: steps that were taken, and what each found.
   function progress() {
     const job = context.state?.jobs.diagnose;
+    doing();
     if (job?.state !== "running") {
       clear(live);
       return;
@@ -65,6 +66,7 @@ export function show(root, context) {
         { class: "panel" },
         h("h1", {}, "Diagnosing"),
         h("p", { class: "quiet" }, job.tasks.at(-1)?.sentence ?? ""),
+        whole(job),
         job.said.length
           ? [
               h("h3", {}, "Known so far"),
@@ -78,6 +80,23 @@ export function show(root, context) {
         h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
       ),
     );
+  }
+
+  // How long it takes in all, of one that began at the beginning: no two are alike, so it goes by the last.
+  function whole(job) {
+    const task = job.tasks.find((t) => t.what === "the whole diagnosis");
+    if (!task?.before) return null;
+    const last = `the last one took ${duration(task.before)}`;
+    return h("p", { class: "quiet", id: "whole" }, task.left === null ? `Longer than the last one by now: ${last}.` : `About ${duration(task.left)} left in all: ${last}.`);
+  }
+
+  // What adding an effect, or the next experiment, is at: steps within steps, below what was clicked.
+  function doing() {
+    for (const kind of ["next", "extend", "build"]) {
+      const place = root.querySelector(`#doing-${kind}`),
+        job = context.state?.jobs[kind];
+      if (place) clear(place, job?.state === "running" ? job.tasks.map((t) => h("li", {}, t.sentence)) : null);
+    }
   }
 
   function draw() {
@@ -122,6 +141,7 @@ export function show(root, context) {
     );
     const bag = { answer, next, extension, built, context, old };
     clear(after, nextPart(bag), addPart(bag), ladder(bag));
+    doing();
   }
 
   const effectOf = (e) =>
