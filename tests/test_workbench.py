@@ -300,7 +300,7 @@ def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_do
         teller = Teller(folder, "diagnose")
         try:
             with told_to(teller), task(WHOLE) as whole, task("screening, disc_tooth_errors.ovality"):
-                say("best alone: disc_tooth_errors.ovality, beside disc_tooth_errors of entrada_bloqueada")
+                say("misfit: transmission_error, orders; best alone: disc_tooth_errors.ovality, beside disc_tooth_errors of entrada_bloqueada")
                 teller.write(jobs.RUNNING)
                 whole.begun -= passed
                 if stopped:
@@ -313,7 +313,7 @@ def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_do
 
     beat = told(600.0)
     assert beat["tasks"][0]["left"] is None and beat["tasks"][1]["sentence"] == "screening, disc tooth errors (ovality)"
-    assert beat["said"] == ["best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
+    assert beat["said"] == ["misfit: transmission error, orders; best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
     assert told(30.0, stopped=True)["tasks"][0]["before"] == pytest.approx(600.0, abs=2.0)
     assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
 

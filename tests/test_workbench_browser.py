@@ -488,6 +488,17 @@ def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     at_work("")
 
 
+def test_what_is_significant_is_no_share_of_nothing(bench):
+    page = bench.page
+    page.goto(bench.address)
+    found = page.evaluate("""async () => {
+      const { fails } = await import('./static/look_parts.js');
+      const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, p: 8e-7, why: null });
+      return [...fails({ signals: [], places: [place(0.94), place(0.002)] }, {}).querySelectorAll('td.num')].map((cell) => cell.textContent);
+    }""")
+    assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
+
+
 def test_a_sample_aside_stretches_no_axis(bench):
     page = bench.page
     page.goto(bench.address)

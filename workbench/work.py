@@ -1,13 +1,11 @@
 """The process of a job: ``python -m workbench.work FOLDER KIND``."""
 
 import os
-import re
 import signal
 import sys
 import threading
 import time
 import traceback
-from functools import cache
 from pathlib import Path
 from types import FrameType
 
@@ -16,6 +14,7 @@ from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import Task, told_to
 from workbench import jobs
 from workbench.folder import Folder
+from workbench.told import in_words
 
 # How often the folder is told how far it is [s], and how many lines of results on the way are kept.
 BEAT, MOST_SAID = 0.4, 200
@@ -50,9 +49,7 @@ class Teller:
         self.durations.end(task)
 
     def say(self, text: str) -> None:
-        from discrepancy.page.amounts import with_titles
-
-        self.said.append(in_words(with_titles(text)))
+        self.said.append(in_words(text))
         del self.said[:-MOST_SAID]
 
     def beat(self) -> None:
@@ -83,20 +80,6 @@ class Teller:
         # An effect that is added changes the folder itself: its result is not old by that.
         self.stamp = self.folder.stamp(self.model)
         self.write(state, fault)
-
-
-@cache
-def names_of_effects() -> re.Pattern[str]:
-    from discrepancy.model_file import every_effect
-
-    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted(every_effect(), key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
-
-
-def in_words(text: str) -> str:
-    """Names of effects as the page has them elsewhere."""
-    from discrepancy.page.amounts import effect_title
-
-    return names_of_effects().sub(lambda name: effect_title(name[0]), text)
 
 
 def interrupt(_: int, __: FrameType | None) -> None:
