@@ -228,6 +228,10 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     assert steps[0].as_json() == steps[1].as_json()
     # What is left are the slopes by which unused runs are held against it.
     assert second.doctor.space.predictions.calls - fits <= 5
+    # Called otherwise, in another folder, it is the same that was measured; the answer is told of the present one.
+    moved = replace(wide, name="moved", text='# a copy\n[campaign]\nname = "moved"\ndata = "../bench"\n')
+    assert remembered.remembered(file, moved).as_json()["campaign"] == "moved"
+    assert remembered.remembered(file, replace(moved, text=moved.text + 'orders = { motor = [3] }\n')) is None
     # Other measurements, and a file that is not whole, are no answer.
     other = replace(wide, records=(*wide.records[:-1], replace(wide.records[-1], values=wide.records[-1].values * 1.001)))
     assert remembered.remembered(file, other) is None
