@@ -8,6 +8,9 @@ import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
 import { dimmed, past } from "./past.js";
 
+// What a diagnosis is called that begins at the beginning, or goes on; its steps stand within.
+const WHOLE = ["the whole diagnosis", "the rest of the diagnosis"];
+
 export function show(root, context) {
   let answer = null,
     next = null,
@@ -65,7 +68,7 @@ export function show(root, context) {
         "div",
         { class: "panel" },
         h("h1", {}, "Diagnosing"),
-        h("p", { class: "quiet" }, job.tasks.at(-1)?.sentence ?? ""),
+        h("p", { class: "quiet", id: "step" }, job.tasks.slice(job.tasks.findIndex((t) => WHOLE.includes(t.what)) + 1).map((t, i) => [i ? " › " : "", t.sentence])),
         whole(job),
         job.said.length
           ? [
@@ -84,7 +87,7 @@ export function show(root, context) {
 
   // How long it takes in all, of one that began at the beginning: no two are alike, so it goes by the last.
   function whole(job) {
-    const task = job.tasks.find((t) => t.what === "the whole diagnosis");
+    const task = job.tasks.find((t) => t.what === WHOLE[0]);
     if (!task?.before) return null;
     const last = `the last one took ${duration(task.before)}`;
     return h("p", { class: "quiet", id: "whole" }, task.left === null ? `Longer than the last one by now: ${last}.` : `About ${duration(task.left)} left in all: ${last}.`);
