@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fmu_src.progress import Listener, Task
 
 if TYPE_CHECKING:
-    from cli.durations import Durations
+    from fmu_src.durations import Durations
 
 # What is over sooner is not spoken of in a pipe, no line follows another sooner [s], and the longer it takes the rarer they get.
 SOON, PAUSE, GROWTH = 0.7, 3.0, 0.4
@@ -32,7 +32,7 @@ class Remembering:
 
     @cached_property
     def durations(self) -> "Durations":
-        from cli.durations import Durations
+        from fmu_src.durations import Durations
 
         return Durations(self.words)
 

@@ -26,6 +26,7 @@ from discrepancy.problem import BASE, Candidate
 from discrepancy.verdict import Answer
 from discrepancy.written_number import digits_of, rounded
 from fmu_src.faults import InputFault
+from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
 
 HELPED, NOT_PROVEN, DID_NOT_HELP = "helped", "not proven", "did not help"
@@ -64,26 +65,31 @@ class Extension:
 
 @sharing_no_matrices
 def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False,
-           jobs: int = 1, answer: Answer | None = None) -> Extension:
+           jobs: int = 1, answer: Answer | None = None, doctor: Diagnostician | None = None) -> Extension:
     """Fit the named candidates (``effect`` or ``effect.variant``) and add them; ``base.NUMBER`` corrects an assumed number of the reducer.
 
-    ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from.
+    ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from, ``doctor`` one that was
+    interrupted.
     """
-    model = answer.model if answer else PhysicalModel(file, campaign, jobs=jobs)
+    begun = doctor.model if doctor and isinstance(doctor.model, PhysicalModel) else None
+    model = answer.model if answer else begun or PhysicalModel(file, campaign, jobs=jobs)
     # A name that nobody knows is refused before minutes are spent.
     asked = [variants_of(name, model.candidates, file) for name in names]
     if answer:
         diagnostician = answer.doctor
     else:
-        diagnostician = Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
-        diagnostician.prepare()
+        diagnostician = doctor or Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+        with task("fitting the base model"):
+            diagnostician.prepare()
         # Where a fit starts is known from the candidate's own score.
-        diagnostician.screened([candidate for variants in asked for candidate in variants])
+        with task(f"looking at what {', '.join(names)} would do"):
+            diagnostician.screened([candidate for variants in asked for candidate in variants])
     space = diagnostician.space
     every = list(range(len(space.records)))
     before = by_signal(runs_of(space, space.predictions(space.base.values, every)))
     chosen = [best_of(variants, diagnostician) for variants in asked]
-    fit = diagnostician.final([c.name for c in chosen])
+    with task(f"fitting {', '.join(c.name for c in chosen)}"):
+        fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
     numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
     settings_found = dict(file.settings)
@@ -98,9 +104,10 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
             for p in candidate.parameters
         })  # fmt: skip
     extended = replace(file, effects=effects, settings=settings_found)
-    judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
-    fitted = judgement(diagnostician, fit, diagnostician.space.training)
-    outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
+    with task("judging it on unused runs"):
+        judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
+        fitted = judgement(diagnostician, fit, diagnostician.space.training)
+        outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
@@ -144,7 +151,15 @@ def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> 
 
 def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidate:
     """The variant that fits best."""
-    return variants[0] if len(variants) == 1 else min(variants, key=lambda c: diagnostician.fit([c.name]).fit.chi2)
+    if len(variants) == 1:
+        return variants[0]
+    misfits = []
+    with task("trying each form", total=len(variants)) as trying:
+        for candidate in variants:
+            trying.what = f"trying {candidate.name}"
+            misfits.append(diagnostician.fit([candidate.name]).fit.chi2)
+            trying.advance()
+    return variants[misfits.index(min(misfits))]
 
 
 def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:

@@ -8,6 +8,7 @@ import contextlib
 import hashlib
 import os
 import pickle
+import tomllib
 from functools import cache
 from pathlib import Path
 from typing import TypeVar
@@ -18,11 +19,15 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, every_effect
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import Answer, AnswerSoFar, diagnose
 from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
+from fmu_src.progress import task
 from fmu_src.source_hash import ROOT
 
+# What the task of a diagnosis that is computed from its beginning is called.
+WHOLE = "the whole diagnosis"
 Kept = TypeVar("Kept", Answer, Diagnostician)
 MARK = b"rvwear diagnosis 1\n"
 # Larger ones are not kept, and together they take no more than this [bytes].
@@ -36,11 +41,11 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     if answer is None:
         place = place_of(file, campaign, settings)
         begun = place.with_suffix(".begun")
-        doctor = read(begun, Diagnostician)
-        if doctor is not None:
-            doctor.space.threads.jobs = jobs
+        doctor = interrupted(file, campaign, settings, jobs)
         try:
-            answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
+            # The rest says nothing of how long the next one takes.
+            with task(WHOLE if doctor is None else "the rest of the diagnosis"):
+                answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
         except AnswerSoFar as stop:
             write(begun, stop.answer.doctor)
             raise
@@ -49,11 +54,23 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     return answer
 
 
+def interrupted(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician | None:
+    """What a diagnosis had found when it was interrupted, if one was."""
+    doctor = read(place_of(file, campaign, settings).with_suffix(".begun"), Diagnostician)
+    if doctor is not None:
+        doctor.space.threads.jobs = jobs
+        if isinstance(doctor.model, PhysicalModel):
+            doctor.model.campaign = campaign
+    return doctor
+
+
 def remembered(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer | None:
     """The diagnosis from before, if there was one."""
     answer = read(place_of(file, campaign, settings), Answer)
     if answer is not None:
         answer.model.threads.jobs = jobs
+        # The same was measured; what it is called, and where it lies, may be another.
+        answer.model.campaign = campaign
     return answer
 
 
@@ -64,7 +81,7 @@ def place_of(file: ModelFile, campaign: Campaign, settings: Settings) -> Path:
 def key(file: ModelFile, campaign: Campaign, settings: Settings) -> str:
     """File name of what is computed from these by this program."""
     found = hashlib.sha256()
-    for part in (program(), repr(sorted(every_effect())), repr(file), campaign.text, repr(campaign.nuisances), repr(settings)):
+    for part in (program(), repr(sorted(every_effect())), repr(file), stated(campaign), repr(campaign.nuisances), repr(settings)):
         found.update(hashlib.sha256(part.encode()).digest())
     for record in campaign.records:
         plain = {k: v for k, v in record.__dict__.items() if k not in ("values", "axes")}
@@ -72,6 +89,13 @@ def key(file: ModelFile, campaign: Campaign, settings: Settings) -> str:
         for name, column in [("values", record.values), *sorted(record.axes.items())]:
             found.update(name.encode() + np.ascontiguousarray(column).tobytes())
     return found.hexdigest()[:40]
+
+
+def stated(campaign: Campaign) -> str:
+    """What campaign.toml says of what was measured: neither comments, nor what it is called and where its files lie."""
+    content = tomllib.loads(campaign.text)
+    head = {key: value for key, value in content.get("campaign", {}).items() if key not in ("name", "description", "data")}
+    return repr(content | {"campaign": head})
 
 
 @cache

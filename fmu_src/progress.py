@@ -30,6 +30,8 @@ class Task:
     # Seconds that it took the last time, if somebody remembers.
     before: float | None = None
     begun: float = field(default_factory=time.monotonic)
+    # Whether something ended it before its time.
+    broken: bool = False
 
     def __post_init__(self) -> None:
         self.name = self.what
@@ -107,6 +109,9 @@ def task(what: str, total: int | None = None, about: float | None = None) -> Ite
         listener.begin(begun)
     try:
         yield begun
+    except BaseException:
+        begun.broken = True
+        raise
     finally:
         for listener in heard:
             listener.end(begun)

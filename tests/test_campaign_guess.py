@@ -196,7 +196,7 @@ def test_the_hidden_effect_is_guessed_as_it_is():
 
 
 @pytest.mark.parametrize("patterned, plain", [("te_{load}Nm_{speed}rpm_{replicate}", "te_167Nm_15rpm_2"), ("TE {temperature}°C {direction} rep{replicate}", "TE 40°C fwd rep2"),
-                                              ("loop_{hours}h_{replicate}", "loop_1000h_2"), ("{any}_te_{load}%_{replicate}", "20240102_te_50%_2")])  # fmt: skip
+                                              ("Histéresis {load} Nm medida {replicate}", "Histéresis 50 Nm medida 2"), ("loop_{hours}h_{replicate}", "loop_1000h_2"), ("{any}_te_{load}%_{replicate}", "20240102_te_50%_2")])  # fmt: skip
 def test_patterns_of_names(patterned, plain):
     said = proposed(Path(f"{plain}.csv"))
     assert said.pattern == patterned and said.replicate == 2 and not said.label
@@ -204,7 +204,7 @@ def test_patterns_of_names(patterned, plain):
     assert (again.numbers, again.replicate, again.direction) == (said.numbers, said.replicate, said.direction)
 
 
-@pytest.mark.parametrize("word", ["run", "nr", "Wdh", "essai", "Versuch", "mesure", "repetition", "M", "v", "aufbau"])
+@pytest.mark.parametrize("word", ["run", "nr", "Wdh", "essai", "Versuch", "mesure", "medida", "repetition", "M", "v", "aufbau"])
 def test_repetitions_are_no_conditions(tmp_path, word):
     """Known words count; of any other it is said why."""
     for k in (1, 2, 3):

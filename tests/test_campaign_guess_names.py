@@ -139,3 +139,23 @@ def test_many_turns_in_a_name_are_turns_a_minute(text, speed):
     found = proposed(Path(f"{text}.csv"))
     assert found.numbers["speed"] == (speed, "rpm") and "{speed:rpm}" in found.pattern
     assert "speed" not in proposed(Path("te_50Nm_15U_1.csv")).numbers and "speed" not in proposed(Path("te_50Nm_2 giri_1.csv")).numbers
+
+
+def test_a_pattern_says_where_the_input_was_locked(tmp_path):
+    """It counts before what the head says; in degrees, or in the unit behind it; one of another kind is refused."""
+    for file in list(loop_files(tmp_path, "Schleife 0° 2", "Schleife 120° 2").glob("*.csv")):
+        file.write_text("Eingang gesperrt bei 40 deg\n\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
+    proposal = propose([tmp_path], Wishes("RV20E-121", names=("Schleife {locked_at}° {replicate}",)))
+    assert sorted(stated["locked_at"] for stated in proposal.conditions.values()) == ["0 deg", "120 deg"]
+    assert by_pattern(Path("loop_1.5rad_1.csv"), "loop_{locked_at}rad_{replicate}").numbers == {"locked_at": (1.5, "rad")}
+    with pytest.raises(InputFault, match="'rpm' behind {locked_at} is a unit of speed, not of angle"):
+        by_pattern(Path("loop_15rpm_1.csv"), "loop_{locked_at}rpm_{replicate}")
+
+
+def test_long_names_of_runs_are_not_cut(tmp_path, capsys):
+    """Twelve runs were all "Error_de_transmisión_100_Nm_600_r…"."""
+    error_files(tmp_path, *(f"Error de transmisión del banco de ensayo 100 Nm 600 rpm medida {k}" for k in (1, 2)))
+    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--reducer", "RV20E-121"]) in (0, 1)
+    shown = capsys.readouterr().out
+    rows = "".join(line.split("│")[1].strip() for line in shown.splitlines() if line.startswith("│"))
+    assert "…" not in shown and all(f"Error_de_transmisión_del_banco_de_ensayo_100_Nm_600_rpm_medida_{k}" in rows for k in (1, 2))

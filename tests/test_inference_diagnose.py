@@ -1,6 +1,7 @@
 """Diagnosis of toy campaigns: each verdict once, estimates, intervals, plain data, speed."""
 
 import json
+import re
 import time
 from dataclasses import replace
 from types import SimpleNamespace
@@ -125,6 +126,9 @@ def test_how_many_effects_were_tested_is_told_of_how_many():
     # An order of a first look was taken for the answer.
     assert "nearest" not in said[-1] and "at first sight, each alone and none fitted yet" in said[-1] and said[-1].endswith("no answer yet")
     assert (f"the other {every - tested} change nothing here" in said[-1]) == (tested < every)
+    # In words of the bench, the largest first: p of 5e-101 beside 5e-159 ranked nothing.
+    shares = [float(share) for share in re.findall(r"\(([\d.e+]+) % of the misfit", said[-1])]
+    assert len(shares) == 3 and shares == sorted(shares, reverse=True) and 5.0 < shares[0] <= 100.0 and "p =" not in said[-1]
 
 
 def test_an_unknown_law_is_recovered_without_a_name():

@@ -1,6 +1,7 @@
 """The loop from a campaign to a better model, on small campaigns of the virtual bench with known additions."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
+from fmu_src.progress import told_to
 
 pytestmark = pytest.mark.usefixtures("shared_runs")
 NOISE = {"transmission_error": 2e-6, "input_torque": 0.01, "lost_motion": 5e-6}
@@ -103,7 +105,12 @@ def test_nothing_is_left_to_find_in_the_extended_model(file, wide):
 
 
 def test_effect_that_only_fits_noise_is_refused(file):
-    extension = extend(file, campaign_of(file, {}, 3), ["pin_position_errors.scatter"])
+    heard = []
+    with told_to(SimpleNamespace(begin=lambda task: heard.append(task.what), end=lambda task: None, say=lambda text: None)):
+        extension = extend(file, campaign_of(file, {}, 3), ["pin_position_errors.scatter"])
+    # Minutes, of which nothing said what they were for.
+    steps = [what for what in heard if what.startswith(("fitting the base", "looking", "fitting pin", "judging"))]
+    assert steps == ["fitting the base model", "looking at what pin_position_errors.scatter would do", "fitting pin_position_errors.scatter", "judging it on unused runs"]
     assert extension.verdict in (DID_NOT_HELP, NOT_PROVEN)
     assert extension.file.effects == {} and extension.file.steps[0]["kept"] is False
 
@@ -221,6 +228,10 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     assert steps[0].as_json() == steps[1].as_json()
     # What is left are the slopes by which unused runs are held against it.
     assert second.doctor.space.predictions.calls - fits <= 5
+    # Called otherwise, in another folder, it is the same that was measured; the answer is told of the present one.
+    moved = replace(wide, name="moved", text='# a copy\n[campaign]\nname = "moved"\ndata = "../bench"\n')
+    assert remembered.remembered(file, moved).as_json()["campaign"] == "moved"
+    assert remembered.remembered(file, replace(moved, text=moved.text + 'orders = { motor = [3] }\n')) is None
     # Other measurements, and a file that is not whole, are no answer.
     other = replace(wide, records=(*wide.records[:-1], replace(wide.records[-1], values=wide.records[-1].values * 1.001)))
     assert remembered.remembered(file, other) is None

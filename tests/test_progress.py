@@ -3,12 +3,13 @@
 import io
 import sys
 import time
+from types import SimpleNamespace
 
 import pytest
 
 from cli import progress as shown
 from cli.bars import Bars
-from cli.durations import Durations
+from fmu_src.durations import Durations
 from fmu_src.progress import Task, say, task, told_to
 
 
@@ -68,7 +69,7 @@ def test_without_a_listener_nothing_happens(capsys):
 
 def test_what_nobody_can_count_is_told_from_the_last_time(tmp_path, monkeypatch):
     """By the command line, else by what is done; short tasks and those that know it themselves are left alone."""
-    monkeypatch.setattr("cli.durations.cache_folder", lambda name: tmp_path)
+    monkeypatch.setattr("fmu_src.durations.cache_folder", lambda name: tmp_path)
 
     def run(words, what, passed, **more):
         task = Task(what, **more)
@@ -91,5 +92,19 @@ def test_what_nobody_can_count_is_told_from_the_last_time(tmp_path, monkeypatch)
     assert task.sentence() == "comparing, about 15 s left"
     task.begun -= 30.0
     assert task.sentence() == "comparing, for 35 s now"
+    # What was interrupted says nothing of how long it takes.
+    run(["compare", "a"], "comparing", 5.0, broken=True)
+    assert run(["compare", "a"], "comparing", 1.0) == 20.0
     (tmp_path / "tasks").write_bytes(b"damaged")
     assert run(["compare", "a"], "comparing", 1.0) is None
+
+
+def test_what_ends_before_its_time_is_known():
+    heard = []
+    listener = SimpleNamespace(begin=heard.append, end=lambda _: None)
+    with told_to(listener):
+        with pytest.raises(KeyboardInterrupt), task("stopped"):
+            raise KeyboardInterrupt
+        with task("whole"):
+            pass
+    assert [t.broken for t in heard] == [True, False]

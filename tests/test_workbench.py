@@ -87,6 +87,23 @@ def test_a_file_that_cannot_be_read_takes_nothing_from_the_others(tmp_path, caps
     assert folder.campaign.read_text(encoding="utf-8") == found["text"]
 
 
+def test_a_reducer_that_the_files_name_is_taken_until_another_is_chosen(tmp_path, capsys):
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    for k in (1, 2):
+        folder.new_file(f"loop_20degC_{k}.csv", f"Reductor: RV-20E-121\n\n{CSV}".encode())
+    found = view(folder)
+    assert found["proposal"]["reducer"] == "RV20E-121" and not found["proposal"]["needs"] and "--reducer RV20E-121" in found["command"]
+    save(folder)
+    assert main([*shlex.split(found["command"])[1:], "--overwrite"]) == 0
+    assert folder.campaign.read_text(encoding="utf-8") == found["text"]
+    wish(folder, {"reducer": "RV20E-121-rigid"})
+    assert view(folder)["proposal"]["reducer"] == "RV20E-121-rigid"
+    wish(folder, {"reducer": ""})
+    assert not view(folder)["proposal"]["reducer"]
+
+
 def test_no_folder_is_made_of_a_mistyped_path(tmp_path):
     (tmp_path / "bench").mkdir()
     (tmp_path / "c.csv").write_text(CSV)
@@ -270,6 +287,37 @@ def test_a_job_tells_the_folder_and_is_found_by_the_next_server(tmp_path):
     assert found["state"] == jobs.FAILED and "campaign.toml" in found["fault"]
 
 
+def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_does(tmp_path, monkeypatch):
+    """The whole of a diagnosis had no estimate; one that was stopped gives none."""
+    from discrepancy.remembered import WHOLE
+    from fmu_src.progress import say, task, told_to
+    from workbench.work import Teller
+
+    monkeypatch.setattr("fmu_src.durations.cache_folder", lambda name: tmp_path)
+    folder = opened(tmp_path / "b")
+
+    def told(passed, stopped=False):
+        teller = Teller(folder, "diagnose")
+        try:
+            with told_to(teller), task(WHOLE) as whole, task("screening, disc_tooth_errors.ovality"):
+                say("misfit: transmission_error, orders; best alone: disc_tooth_errors.ovality, beside disc_tooth_errors of entrada_bloqueada")
+                teller.write(jobs.RUNNING)
+                whole.begun -= passed
+                if stopped:
+                    raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            pass
+        beat = folder.recall("jobs/diagnose/beat")
+        teller.close(jobs.DONE)
+        return beat
+
+    beat = told(600.0)
+    assert beat["tasks"][0]["left"] is None and beat["tasks"][1]["sentence"] == "screening, disc tooth errors (ovality)"
+    assert beat["said"] == ["misfit: transmission error, orders; best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
+    assert told(30.0, stopped=True)["tasks"][0]["before"] == pytest.approx(600.0, abs=2.0)
+    assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
+
+
 def test_a_job_that_is_silent_is_gone(tmp_path):
     folder = opened(tmp_path)
     folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time() - 100.0})
@@ -338,6 +386,8 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
 
     bounded = slider(Parameter("clearance", "m", 0.0, 0.0, 1e-3, 2e-6, 1), True)
     assert (bounded["low"], round(bounded["high"], 9), bounded["unit"], bounded["bounds"]) == (0.0, 10.0, "µm", [0.0, 1000.0])
+    assert bounded["of"] == ""
+    assert slider(Parameter("drift", "1", 0.0, -5.0, 5.0, 0.01, description="drift in a run over the mean size (0: off)"), True)["of"] == "drift in a run over the mean size"
     carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
 
@@ -561,12 +611,16 @@ def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, 
             "training_before": 2.0, "training_after": 1.0, "held_out_before": 2.0, "held_out_after": 1.0}  # fmt: skip
     monkeypatch.setattr(steps, "inputs", lambda folder, given: (file, None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
-    monkeypatch.setattr(extend, "extend", lambda *given, **more: extend.Extension(replace(file, steps=(step,)), step, extend.HELPED))
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: "what was known")
+    asked = []
+    monkeypatch.setattr(extend, "extend", lambda *given, **more: asked.append(more) or extend.Extension(replace(file, steps=(step,)), step, extend.HELPED))
     folder.remember("view", {"model": "RV20E-121", "theme": "dark"})
     place = jobs.place_of(folder, "extend")
     place.mkdir(parents=True)
     assert steps.extend_step(folder, {"model": "RV20E-121", "effects": ["drag"]}, 1, place) is False
     assert folder.recall("view") == {"model": chosen, "theme": "dark"}
+    # After a stop it goes on from there.
+    assert asked[0]["answer"] is None and asked[0]["doctor"] == "what was known"
 
 
 def moved(angle, by):

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 import tomllib
 from pathlib import Path
 
@@ -231,12 +232,20 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     page.select_option("#measured", "RV20E-121")
     assert page.get_by_label("quantity", exact=True).count() == 2
     page.get_by_text("The 3 numbers in these names (20, 80, 167) are").wait_for()
-    page.get_by_text("2 names that differ by numbers make conditions of their own").wait_for()
+    # What tells them apart is seen before anything is opened.
+    assert page.get_by_text("3 runs: 167, 20, 80", exact=True).get_attribute("title").splitlines()[0] == "Drehfehler_167_15rpm_40C_1.csv"
+    page.get_by_text("The 2 numbers in these names (0, 40) are").wait_for()
+    loads, places = page.get_by_label("numbers in the names").nth(0), page.get_by_label("numbers in the names").nth(1)
+    # Degrees are where the input was locked, and of a transmission error no input is.
+    assert places.locator("option").all_inner_texts() == ["names alone", "input locked at [°]"] and "locked" not in loads.inner_text()
+    places.select_option(label="input locked at [°]")
+    page.get_by_text("The 2 numbers in these names").wait_for(state="detached")
     page.get_by_label("numbers in the names").select_option(label="load torque [N·m]")
     page.get_by_text("The 3 numbers in these names").wait_for(state="detached")
     assert page.get_by_label("pattern of the names").first.input_value() == "Drehfehler_{load}_{speed}rpm_{temperature}C_{replicate}"
     loads = [page.get_by_label("load torque", exact=True).nth(k).input_value() for k in range(5)]
-    assert sorted(filter(None, loads)) == ["167", "20", "80"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
+    places = [page.get_by_label("locked at", exact=True).nth(k).input_value() for k in range(5)]
+    assert sorted(filter(None, loads)) == ["167", "20", "80"] and sorted(filter(None, places)) == ["0", "40"] and page.get_by_text("5 runs in 5 files, 5 conditions").count() == 1
 
 
 def test_units_typed_in_cells_are_read_or_told_at_once(bench, tmp_path):
@@ -447,6 +456,48 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     # A word that is wider than its place is parted, not cut.
     assert ["".join(parts) for parts, _ in lines] == ["1500rpm_167N.m_warm", "with_einlaufenderungeschmiert_2"]
     assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
+
+
+def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
+    """Adding an effect took minutes without a word; a diagnosis told of its step alone."""
+    folder = opened(bench.folder)
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    part = {"cards": [], "sections": [], "warnings": []}
+    answer = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
+              "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [{"name": "needle_clearance"}], "laws": [], "page": part,
+              "doubts": [], "command": "c"}  # fmt: skip
+    folder.remember("jobs/diagnose/result", answer)
+    far = time.time() + 3600.0
+
+    def at_work(kind, *tasks):
+        for other in ("diagnose", "extend"):
+            state = "running" if other == kind else "stopped"
+            folder.remember(f"jobs/{other}/job", {"kind": other, "given": {"model": "RV20E-121"}, "begun": far})
+            told = [{"done": 0, "total": None, "left": None, "before": None, "what": what, "sentence": what} | more for what, more in tasks]
+            folder.remember(f"jobs/{other}/beat", {"state": state, "at": far, "seconds": 3.0, "said": [], "tasks": told if other == kind else []})
+
+    at_work("extend", ("adding needle_clearance", {}), ("fitting the base model", {}))
+    bench.view("diagnose")
+    page = bench.page
+    page.locator("#doing-extend li").nth(1).wait_for()
+    assert page.locator("#doing-extend li").all_inner_texts() == ["adding needle_clearance", "fitting the base model"]
+    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0, "left": 240.0}), ("screening", {}), ("placing", {}))
+    page.get_by_text("About 4 min left in all: the last one took 10 min.").wait_for()
+    assert page.locator("#step").inner_text() == "screening › placing"
+    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0}), ("screening", {}))
+    page.get_by_text("Longer than the last one by now: the last one took 10 min.").wait_for()
+    at_work("")
+
+
+def test_what_is_significant_is_no_share_of_nothing(bench):
+    page = bench.page
+    page.goto(bench.address)
+    found = page.evaluate("""async () => {
+      const { fails } = await import('./static/look_parts.js');
+      const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, p: 8e-7, why: null });
+      return [...fails({ signals: [], places: [place(0.94), place(0.002)] }, {}).querySelectorAll('td.num')].map((cell) => cell.textContent);
+    }""")
+    assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
 
 
 def test_a_sample_aside_stretches_no_axis(bench):

@@ -23,7 +23,7 @@ from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
 from discrepancy.campaign.unplaced import unplaced
 from fmu_src.faults import InputFault
 from pages.look import significant
-from reducers.library import available
+from reducers.library import available, named_in
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
@@ -94,7 +94,7 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> Proposed:
     Conditions are named anew where the pattern of names changes; what was once remembered of names may fit no file any more.
     """
     files = folder.measurements()
-    reducer = given.get("reducer")
+    reducer = given.get("reducer", named_above(files))
     wishes = wishes_of({**given, "reducer": str(folder.model({"model": reducer})) if reducer else None})
     old = [n for n in wishes.names if n in folder.recall(WISHES).get("names", ()) and not any(by_pattern(file, n) for file in files)]
     wishes = replace(wishes, names=tuple(n for n in wishes.names if n not in old))
@@ -121,6 +121,11 @@ def proposed(folder: Folder, given: Mapping[str, Any]) -> Proposed:
     fitting = replace(wishes, conditions=kept, held_out=held)
     left_out += [f"condition {n}: there is none of that name any more; what was said of it is left out" for n in gone]
     return Proposed(propose(files, fitting, name), fitting, left_out, unread)
+
+
+def named_above(files: Sequence[Path]) -> str | None:
+    """The reducer that lines above the tables name: it is taken until another one is chosen, or none."""
+    return named_in(line for file in files for line in drawn(file, file.stat().st_mtime_ns).above)
 
 
 def unread_of(folder: Folder, files: Sequence[Path], wishes: Wishes) -> dict[Path, str]:
@@ -229,20 +234,32 @@ def doubts_of(proposal: Proposal) -> list[dict[str, Any]]:
         return []
 
 
-@lru_cache(maxsize=4096)
+@dataclass(frozen=True)
+class Drawn:
+    """What the page shows of a file: each column's name as the file has it, its size and a curve of few points; and the lines ``above`` its table."""
+
+    columns: list[dict[str, Any]]
+    above: tuple[str, ...]
+
+
 def columns_of(path: Path, changed: int) -> list[dict[str, Any]]:
-    """Each column's name as the file has it, its size and a curve of few points; ``changed`` tells one version of a file from the next."""
+    return drawn(path, changed).columns
+
+
+@lru_cache(maxsize=4096)
+def drawn(path: Path, changed: int) -> Drawn:
+    """Empty where the file is no table; ``changed`` tells one version of a file from the next."""
     try:
         table = table_of(path)
     except InputFault:
-        return []
+        return Drawn([], ())
     found = []
     for name, values in list(table.columns.items())[:MOST_COLUMNS]:
         known = values[np.isfinite(values)]
         few = values[np.linspace(0, len(values) - 1, min(POINTS, len(values))).astype(np.intp)] if len(values) else values
         span = [float(known.min()), float(known.max())] if len(known) else None
         found.append({"name": table.headers.get(name, name), "rows": len(values), "span": span, "curve": significant(few, 4)})
-    return found
+    return Drawn(found, table.above)
 
 
 def text_of(folder: Folder, proposal: Proposal) -> str:

@@ -15,7 +15,7 @@ from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
 from workbench.makers import makers
-from workbench.told import page_data, write_json
+from workbench.told import in_words, page_data, write_json
 
 if TYPE_CHECKING:
     from discrepancy.campaign.model import Campaign
@@ -127,7 +127,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
         "alike": told_apart_by(answer, effect_title),
-        "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": with_titles(left_text(answer)),
+        "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": turned_down(answer),
@@ -180,7 +180,7 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     from discrepancy.model_file import save_model
     from discrepancy.page.amounts import signal_title
     from discrepancy.page.write import page_of
-    from discrepancy.remembered import remembered
+    from discrepancy.remembered import interrupted, remembered
     from discrepancy.wording import signals_left
     from fmu_src.held_file import held
 
@@ -190,7 +190,9 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     target = folder.root / MODEL
     with task(f"adding {', '.join(names)}"), held(target):
         file, campaign = inputs(folder, given)
-        extension = extend(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, answer=remembered(file, campaign, jobs=jobs))
+        known = remembered(file, campaign, jobs=jobs)
+        doctor = None if known else interrupted(file, campaign, jobs=jobs)
+        extension = extend(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, answer=known, doctor=doctor)
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)

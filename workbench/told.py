@@ -1,6 +1,8 @@
 """Pages of results as data that the browser draws: cards, sections, tables, figures."""
 
+import re
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -38,3 +40,19 @@ def table_data(table: Table) -> dict[str, Any]:
 def write_json(place: Path, content: object) -> None:
     """Whole or not at all; numbers that JSON has no sign for become null."""
     write_text(place, plain_json(content))
+
+
+@cache
+def names() -> re.Pattern[str]:
+    """Names of effects, with their form, and of quantities; not where they are part of a longer name or of a key."""
+    from discrepancy.campaign.quantities import QUANTITIES
+    from discrepancy.model_file import every_effect
+
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted({*every_effect(), *QUANTITIES}, key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
+
+
+def in_words(text: str) -> str:
+    """What is told on the way, its effects and signals called as the page calls them elsewhere."""
+    from discrepancy.page.amounts import effect_title, with_titles
+
+    return names().sub(lambda name: effect_title(name[0]), with_titles(text))

@@ -9,10 +9,12 @@ import traceback
 from pathlib import Path
 from types import FrameType
 
+from fmu_src.durations import Durations
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import Task, told_to
 from workbench import jobs
 from workbench.folder import Folder
+from workbench.told import in_words
 
 # How often the folder is told how far it is [s], and how many lines of results on the way are kept.
 BEAT, MOST_SAID = 0.4, 200
@@ -30,6 +32,8 @@ class Teller:
         self.said: list[str] = []
         self.model = str(folder.recall(f"jobs/{kind}/job").get("given", {}).get("model") or "")
         self.stamp = folder.stamp(self.model)
+        # As the command's, which took as long.
+        self.durations = Durations([kind, str(folder.root), self.model])
         self.begun = time.monotonic()
         self.ended = threading.Event()
         self.asked = False
@@ -37,15 +41,15 @@ class Teller:
         self.thread.start()
 
     def begin(self, task: Task) -> None:
+        self.durations.begin(task)
         self.tasks.append(task)
 
     def end(self, task: Task) -> None:
         self.tasks.remove(task)
+        self.durations.end(task)
 
     def say(self, text: str) -> None:
-        from discrepancy.page.amounts import with_titles
-
-        self.said.append(with_titles(text))
+        self.said.append(in_words(text))
         del self.said[:-MOST_SAID]
 
     def beat(self) -> None:
@@ -60,7 +64,8 @@ class Teller:
                     signal.raise_signal(signal.SIGINT)
 
     def write(self, state: str, fault: str = "") -> None:
-        tasks = [{"what": t.what, "done": t.done, "total": t.total, "left": t.left, "sentence": t.sentence()} for t in self.tasks[-MOST_TASKS:]]
+        tasks = [{"what": in_words(t.what), "done": t.done, "total": t.total, "left": t.left, "before": t.before, "sentence": in_words(t.sentence())}
+                 for t in self.tasks[-MOST_TASKS:]]  # fmt: skip
         beat = {"state": state, "at": time.time(), "seconds": time.monotonic() - self.begun, "tasks": tasks, "said": self.said, "fault": fault,
                 "stamp": self.stamp}  # fmt: skip
         try:

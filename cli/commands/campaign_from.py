@@ -33,8 +33,8 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + " (asked for)"), reducer_completions)
     command.add_argument(
         "--names", action="append", default=[], metavar="PATTERN",
-        help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {direction}"
-        " {mounting} {condition} {any}; units beside numbers are read, {load:in-lbf} says one that names have not;"
+        help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {locked_at}"
+        " {direction} {mounting} {condition} {any}; units beside numbers are read, {load:in-lbf} says one that names have not;"
         " once for each kind of name: the first that fits a file counts, and files that none fits are guessed",
     )  # fmt: skip
     for option, form, text in (

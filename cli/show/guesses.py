@@ -16,7 +16,8 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
     out = console(WIDTH)
     table = Table(title=f"{proposal.name}: {len(proposal.runs)} run{'s' * (len(proposal.runs) != 1)}", title_justify="left")
     for column in ("run", "quantity", "condition", "repetition"):
-        table.add_column(column)
+        # Cut at their ends names look alike.
+        table.add_column(column, overflow="fold")
     for run in proposal.runs:
         table.add_row(run.name, run.guessed.quantity.value, run.condition, str(run.replicate.value))
     out.print(table)

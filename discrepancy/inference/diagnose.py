@@ -18,7 +18,7 @@ from discrepancy.inference.refit.beside_base import widening as widening_by_base
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
-from discrepancy.inference.screening.screen import Screen, candidate_columns, screen
+from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
 from discrepancy.inference.telling import Teller
@@ -242,13 +242,19 @@ class Diagnostician:
         say(f"misfit: {best.signal}, {best.feature}, {where} ({chance(best.p)}){more}")
 
     def say_scores(self) -> None:
-        """Which effects stand out most before any is fitted: an order in which to look at them, and no answer."""
-        first = sorted(self.screening.scores, key=lambda s: s.p_adjusted)[:FIRST]
+        """Which effects explain most before any is fitted: an order in which to look at them, and no answer."""
+        first = sorted(self.screening.scores, key=lambda s: -s.statistic)[:FIRST]
         # Of what was tried at first, each has a score or shows nothing.
         idle = len(self.candidates) - len(self.refits.scores)
         without = f", the other {idle} change nothing here that could be seen" if idle else ""
-        shown = ", ".join(f"{s.name} ({chance(s.p_adjusted)})" for s in first)
-        say(f"{self.tested}{without}; at first sight, each alone and none fitted yet, these stand out most: {shown}; no answer yet")
+        shown = ", ".join(f"{s.name} ({self.explained(s)})" for s in first)
+        say(f"{self.tested}{without}; at first sight, each alone and none fitted yet, these could explain most: {shown}; no answer yet")
+
+    def explained(self, score: Score) -> str:
+        """What of the misfit (squares of residuals in units of their noise, beyond what noise makes) would go with an effect, were it linear and free."""
+        beyond = self.space.base.chi2 - self.space.base.residual.size
+        share = score.statistic / max(beyond, *(s.statistic for s in self.screening.scores))
+        return f"{100.0 * share:.2g} % of the misfit{'' if score.p_adjusted < BY_CHANCE else ', which chance gives, too'}"
 
     @property
     def tested(self) -> str:

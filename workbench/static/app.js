@@ -173,7 +173,7 @@ function showWork(jobs) {
     work,
     h("b", {}, WORK[kind]),
     bar,
-    h("span", { class: "doing", title: inner?.sentence }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h("span", { class: "doing", title: [inner?.sentence, said && `so far: ${said}`].filter(Boolean).join("\n") }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
   );

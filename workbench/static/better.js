@@ -4,6 +4,9 @@ import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
 import { offered, refusal } from "./refused.js";
 
+// Where it is told what is being done, once it is.
+const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`, "aria-live": "off" });
+
 export function nextPart(bag) {
   const { answer, next, context } = bag;
   const busy = context.busy();
@@ -65,6 +68,7 @@ export function nextPart(bag) {
       { class: "panel" },
       sheet,
       h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
+      progressOf("next"),
     ),
   );
 }
@@ -122,6 +126,7 @@ export function addPart(bag) {
         ),
         h("label", { class: "inline small" }, keep, "keep it even if it does not help"),
       ),
+      progressOf("extend"),
       extension
         ? [
             extension.kept
@@ -202,6 +207,7 @@ export function ladder(bag) {
             h("button", { type: "button", id: "build", disabled: !!busy, title: busy || undefined, onclick: () => context.start("build", { model: "model.toml" }) }, "Build its FMUs"),
           )
         : null,
+      progressOf("build"),
       built
         ? [
             h("h3", {}, "FMUs"),

@@ -8,6 +8,9 @@ import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
 import { dimmed, past } from "./past.js";
 
+// What a diagnosis is called that begins at the beginning, or goes on; its steps stand within.
+const WHOLE = ["the whole diagnosis", "the rest of the diagnosis"];
+
 export function show(root, context) {
   let answer = null,
     next = null,
@@ -54,6 +57,7 @@ export function show(root, context) {
   // What is known by now: steps that were taken, and what each found.
   function progress() {
     const job = context.state?.jobs.diagnose;
+    doing();
     if (job?.state !== "running") {
       clear(live);
       return;
@@ -64,7 +68,8 @@ export function show(root, context) {
         "div",
         { class: "panel" },
         h("h1", {}, "Diagnosing"),
-        h("p", { class: "quiet" }, job.tasks.at(-1)?.sentence ?? ""),
+        h("p", { class: "quiet", id: "step" }, job.tasks.slice(job.tasks.findIndex((t) => WHOLE.includes(t.what)) + 1).map((t, i) => [i ? " › " : "", t.sentence])),
+        whole(job),
         job.said.length
           ? [
               h("h3", {}, "Known so far"),
@@ -78,6 +83,23 @@ export function show(root, context) {
         h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
       ),
     );
+  }
+
+  // How long it takes in all, of one that began at the beginning: no two are alike, so it goes by the last.
+  function whole(job) {
+    const task = job.tasks.find((t) => t.what === WHOLE[0]);
+    if (!task?.before) return null;
+    const last = `the last one took ${duration(task.before)}`;
+    return h("p", { class: "quiet", id: "whole" }, task.left === null ? `Longer than the last one by now: ${last}.` : `About ${duration(task.left)} left in all: ${last}.`);
+  }
+
+  // What adding an effect, or the next experiment, is at: steps within steps, below what was clicked.
+  function doing() {
+    for (const kind of ["next", "extend", "build"]) {
+      const place = root.querySelector(`#doing-${kind}`),
+        job = context.state?.jobs[kind];
+      if (place) clear(place, job?.state === "running" ? job.tasks.map((t) => h("li", {}, t.sentence)) : null);
+    }
   }
 
   function draw() {
@@ -122,6 +144,7 @@ export function show(root, context) {
     );
     const bag = { answer, next, extension, built, context, old };
     clear(after, nextPart(bag), addPart(bag), ladder(bag));
+    doing();
   }
 
   const effectOf = (e) =>

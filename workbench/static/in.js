@@ -274,7 +274,7 @@ export function show(root, context) {
           "reducer that was measured",
           choose(
             [["", "choose…"], ...reducers.map((r) => [r, r])],
-            data.wishes.reducer ?? "",
+            data.wishes.reducer ?? p?.reducer ?? "",
             (value) =>
               wish((w) => {
                 w.reducer = value;
@@ -282,6 +282,7 @@ export function show(root, context) {
             { id: "measured" },
           ),
         ),
+        p?.reducer && data.wishes.reducer === undefined ? h("span", { class: "quiet small", id: "named" }, "as the lines above the tables say") : null,
         h("button", { type: "button", onclick: () => input.click() }, "Add files"),
         h("button", { type: "button", class: "plainly", onclick: () => context.go("reducer") }, "mine is not in the list"),
       ),

@@ -2,10 +2,12 @@
 
 import { choose, h, spark, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
-import { family, numbersSaid } from "./in_names.js";
+import { apart, family, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
 import { drop } from "./net.js";
 
+// So many files of a group are named before it is opened.
+const MOST_NAMED = 12;
 const COLUMNS = ["role", "column", "curve", "unit, scale", "why"];
 
 // Files that nothing could be made of: each with the reason, and a way out.
@@ -80,6 +82,7 @@ function group(bag, members) {
         else delete w[part][key];
       }
     }, place);
+  const short = apart(own.map((name) => name.replace(/\.\w+$/, "")));
   const headers = (data.columns[first.file] ?? []).map((c) => c.name);
   const roles = Object.entries(quantity.roles).map(([role, r]) => [role, r.title]);
   // A column that takes a role of another gives that one its own, if it has one.
@@ -156,7 +159,7 @@ function group(bag, members) {
     value: first.names,
     size: Math.min(64, Math.max(18, first.names.length + 2)),
     "aria-label": "pattern of the names",
-    title: "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
+    title: `${first.names}\n\n` + "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {locked_at} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
     onchange: () => say(pattern.value.trim()),
   });
   return h(
@@ -180,7 +183,7 @@ function group(bag, members) {
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
-    numbersSaid(patterns, say),
+    numbersSaid(members, Boolean(quantity.roles.locked_at), say),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
     table(
       COLUMNS,
@@ -211,7 +214,8 @@ function group(bag, members) {
     h(
       "details",
       {},
-      h("summary", {}, `${members.length} run${members.length === 1 ? "" : "s"}: ${own.slice(0, 3).join(", ")}${own.length > 3 ? " …" : ""}`),
+      // What tells the files apart is seen; in full they are in the title, and in the table below.
+      h("summary", { title: own.join("\n") }, `${members.length} run${members.length === 1 ? "" : "s"}: ${short.slice(0, MOST_NAMED).join(", ")}${own.length > MOST_NAMED ? " …" : ""}`),
       table(
         ["run", "file", "condition", "repetition", "said of it", ""],
         members.map((run) => [

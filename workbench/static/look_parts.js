@@ -165,6 +165,9 @@ export function singles(signal) {
 
 const titleOf = (result, signal) => result.signals.find((s) => s.signal === signal)?.title ?? words(signal);
 
+// What is significant is not nothing, however little of all misfit it is.
+const percent = (share) => (share < 0.005 ? "under 1 %" : `${Math.round(100 * share)} %`);
+
 export const fails = (result, context) =>
   result.places.length
     ? h(
@@ -183,7 +186,7 @@ export const fails = (result, context) =>
                 titleOf(result, p.signal),
                 p.feature,
                 words(p.dependence),
-                `${Math.round(100 * p.share)} %, p = ${p.p.toExponential(0)}`,
+                `${percent(p.share)}, p = ${p.p.toExponential(0)}`,
                 why(p.why, `${titleOf(result, p.signal)}, ${p.feature}`),
               ]),
             [3],
@@ -213,9 +216,13 @@ export const notes = (result) =>
     h("summary", {}, `${result.warnings.length || "no"} note${result.warnings.length === 1 ? "" : "s"}${result.calibrated.length ? `, ${result.calibrated.length} calibrated` : ""}`),
     result.warnings.map((t) => note(t)),
     result.calibrated.length
-      ? table(
-          ["calibrated", "value", "meaning"],
-          result.calibrated.map((c) => [words(c.name), c.value, c.meaning]),
+      ? h(
+          "div",
+          { class: "panel" },
+          table(
+            ["calibrated", "value", "meaning"],
+            result.calibrated.map((c) => [words(c.name), c.value, c.meaning]),
+          ),
         )
       : null,
   );

@@ -42,16 +42,20 @@ export function entry(e, { values, open, drawList, follow }) {
   );
 }
 
+// ``sensor_drift[hysteresis]`` as "sensor drift (hysteresis)": in square brackets stand units.
+const called = (p) => words(p.name).replace(/\[([^\]]*)\]$/, " ($1)");
+
 function slider(p, values, follow) {
   const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off,
-    step = (p.high - p.low) / 400;
+    step = (p.high - p.low) / 400,
+    unit = p.unit || "1";
   const range = h("input", {
     type: "range",
     min: p.low,
     max: p.high,
     step: "any",
     value,
-    "aria-label": `${words(p.name)} [${p.unit}]`,
+    "aria-label": `${called(p)} [${unit}]`,
     "data-parameter": p.name,
     oninput: () => set(Number(range.value)),
   });
@@ -59,7 +63,7 @@ function slider(p, values, follow) {
     type: "number",
     step: "any",
     value: plain(value),
-    "aria-label": `${words(p.name)}, number`,
+    "aria-label": `${called(p)}, number`,
     onchange: () => {
       const [low, high] = p.bounds,
         asked = Number(field.value),
@@ -89,7 +93,8 @@ function slider(p, values, follow) {
   return h(
     "div",
     { class: "slider" },
-    h("span", { class: "name", title: p.description }, `${words(p.name)}${p.unit ? ` [${p.unit}]` : ""}${p.amplitude ? "" : " · shape"}`),
+    // A number without a unit is a share, or a count, of something: of what stands beside it.
+    h("span", { class: "name", title: p.description }, `${called(p)} [${unit}]${p.amplitude ? "" : " · shape"}`, p.of ? h("span", { class: "small of" }, `: ${p.of}`) : null),
     range,
     field,
     h(

@@ -7,12 +7,13 @@ from pathlib import Path
 
 from discrepancy.campaign.guess.column_words import IN_NAMES, ON_SURFACE
 from discrepancy.campaign.guess.name_units import FIELDS, NUMBER, figure, is_speed_in_turns, plain_field, spelled, with_units
+from discrepancy.held_names import LOCKED_AT
 from fmu_src import unit_words as u
 
 # Field of a pattern -> kind of its unit and the unit where the name has none; fields without a unit have none here.
 NUMBERS = {
     "load": (u.TORQUE, "N.m"), "load_torque": (u.TORQUE, "N.m"), "speed": (u.SPEED, "rpm"), "input_speed": (u.SPEED, "rpm"), "output_speed": (u.SPEED, "rpm"),
-    "temperature": (u.TEMPERATURE, "degC"), "hours": (u.TIME, "h"),
+    "temperature": (u.TEMPERATURE, "degC"), "hours": (u.TIME, "h"), LOCKED_AT: (u.ANGLE, "deg"),
 }  # fmt: skip
 SENSES = {
     "forward": r"fwd|forward|fw|cw|vor|vorwärts|vorwaerts|rechts|avant|avanti|adelante|正转|正転",
@@ -21,14 +22,14 @@ SENSES = {
 SENSE = {sense: re.compile(rf"(?:{words})$", re.IGNORECASE) for sense, words in SENSES.items()}
 WITH_UNIT = re.compile(rf"({NUMBER})[_\s]*([^\d\s_-].*)$")
 COUNTED = re.compile(
-    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|ensaio|teste|medição"
+    r"(?:rep|replicate|repetition|repeat|run|r|wdh|wiederholung|w|lauf|messung|versuch|meas|mesure|essai|prova|ensayo|prueba|ensaio|teste|medida|medición|medição"
     r"|misura|[mv](?=\d$)|répétition|trial|test|n|no|nr|#|第)?\.?(\d{1,2})(?:次|回目?|遍|度目)?$",
     re.IGNORECASE,
 )
 # Words behind which a letter counts, too: run A, Lauf B.
 REPEATED = (
     "rep|reps|replicate|repetition|repeat|run|trial|meas|measurement|wdh|wiederholung|lauf|durchlauf|durchgang|messung|versuch|essai|mesure|répétition"
-    "|prova|misura|ripetizione|ensayo|prueba|repetición|ensaio|medição|repetição"
+    "|prova|misura|ripetizione|ensayo|prueba|medida|medición|repetición|ensaio|medição|repetição"
 )
 REPEATED_WORD = re.compile(rf"(?:{REPEATED})\.?$", re.IGNORECASE)
 COUNT = re.compile(r"\d{1,2}$|[A-Za-z]$")
@@ -37,7 +38,7 @@ NUMBERED_WORD = re.compile(r"([^\W\d_]+)(\d{1,2})$")
 # Parts of names of quantities and surfaces, and words that say nothing.
 PARTS_OF_QUANTITIES = {
     "race", "ring", "inner", "outer", "error", "transmission", "no", "load", "input", "run", "messung", "messreihe", "test", "lauf", "meas", "measurement",
-    "essai", "mesure", "prova", "misura", "ensayo", "prueba", "ensaio", "teste", "medição",
+    "essai", "mesure", "prova", "misura", "ensayo", "prueba", "ensaio", "teste", "medida", "medición", "medição",
     "data", "export", "rep", "speed", "depth", "motion", "lost", "torsional", "torsionale", "torsionnelle", "trasmissione", "transmisión", "transmision",
     "ingresso", "ciclo", "cycle", "di", "de",
 }  # fmt: skip

@@ -125,7 +125,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     factors, actual, factor_doubts = factors_of(name, table, path, entries)
     if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
         factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
-    if quantity.value in HELD and LOCKED_AT not in entries and (at := where_locked(path, table, tags)):
+    if quantity.value in HELD and LOCKED_AT not in entries.keys() | factors.keys() and (at := where_locked(path, table, tags)):
         factors[LOCKED_AT] = Guess(at, "the file's name or head says so")
     headers = tuple(name_of(name) for c in columns for name in dict.fromkeys((table.headers.get(c.name, c.name), c.name)))
     repeated = repetitions(table, columns)

@@ -49,8 +49,8 @@ class Durations:
             task.before = before if before is None or not task.total else before * task.total
 
     def end(self, task: Task) -> None:
-        """Keeps how long it took, if that was long; the first of many steps say little of the others."""
-        if task.about is None and task.passed > LONG and task.done >= (task.total or 0):
+        """Keeps how long it took, if that was long; the first of many steps say little of the others, and what was interrupted of the whole."""
+        if not task.broken and task.about is None and task.passed > LONG and task.done >= (task.total or 0):
             seconds = task.passed / (task.total or 1)
             kept = {key: known for key, known in self.known.items() if key not in self.keys(task)}
             kept |= dict.fromkeys(self.keys(task), float(f"{seconds:.3g}"))
