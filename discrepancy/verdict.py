@@ -152,7 +152,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
     # Beside what is named a number may be what it should be.
-    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
+    own = {p.name for p in best.own} if best else ()
+    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), own, doctor.space.records)
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
