@@ -112,7 +112,7 @@ def test_what_leaves_something_does_not_explain_all():
     assert share_text(answer, 1.0) == "explains over 99.99 % of the misfit" and share_text(answer, 0.6) == "explains 60 % of the misfit"
     assert share_text(answer, 0.99984) == "explains 99.98 % of the misfit"
     alone = answer.effects[0] | {"share_alone": 0.99984, "share_explained": 0.3}
-    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 %")
+    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 % of it beside")
     assert left_text(answer) == f"{SIGNAL}, value, changing with hours"
     assert share_text(answer_of(ONE, True), 1.0) == "explains 100 % of the misfit"
 
@@ -125,7 +125,9 @@ def test_what_is_left_is_sized_signal_by_signal(capsys):
     for record in space.records:
         record.tags, record.condition, record.replicate = {}, "c", 1
     shows.show_answer(answer)
-    assert "every sample is off by  hysteresis: 1.1 times its noise (unused runs: 2)" in capsys.readouterr().out
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "every sample is off by hysteresis: 1.1 times its noise (unused runs: 2); the verdict counts the patterns that carry the misfit, not this" in shown
+    assert "error on unused conditions 28.00 -> 1.20 times the noise, in the patterns that carry the misfit (what the verdict counts)" in shown
     assert left_sizes(answer_of(ONE, True)) == ""
 
 
