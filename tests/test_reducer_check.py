@@ -11,6 +11,8 @@ import pytest
 from cli.main import main
 from fmu_src.faults import InputFault
 from reducers.checking import check
+from reducers.completion.doubts import sun_doubt
+from reducers.completion.given import SUN
 from reducers.library import LIBRARY, available
 from reducers.reducer import load_reducer, numbers_of
 from reducers.usual import FILLED, RULES, derived, usual
@@ -97,7 +99,7 @@ def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
     assert {p.name for p in tmp_path.iterdir()} == {"mine.html", "mine.svg", "mine_teeth.svg"}
     assert main(shlex.split(told["completing"])[1:]) == 0
     completed = check(load_reducer("mine_completed.toml"))
-    assert not completed.doubts and not completed.faults and not completed.completing
+    assert completed.doubts == sun_doubt(numbers_of(completed.reducer)[SUN]) and not completed.faults and not completed.completing
     stated = numbers_of(load_reducer(MINE))
     for name in ("pin.radius", "crank.eccentricity", "output.load_torque", "first_stage.ratio", "input.speed"):
         assert numbers_of(completed.reducer)[name] == pytest.approx(stated[name], rel=1e-6)
