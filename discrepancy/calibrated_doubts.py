@@ -69,7 +69,7 @@ def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (
     if low <= value <= high:
         return []
     if value < CLEAR_LAG[0] - SURELY * deviation:
-        return ['(the model\'s own is 1): assumed is that the angle is the output\'s (angle_of = "output"), and such an output hardly lags: either it was the'
+        return ['(the model\'s own is 1): the angle is taken for that of the output (angle_of = "output"), which then hardly lags: either it was the'
                 f" input's over the ratio after all (state {OF_INPUT} if it was, and diagnose again: places and directions of what is found may move), or the"
                 " encoder was set to 0 under the load of each run"]  # fmt: skip
     if value > CLEAR_LAG[1] + SURELY * deviation:

@@ -27,7 +27,7 @@ def test_a_lag_that_hardly_lags_is_told_with_the_line_that_says_whose_angle_it_w
     (text,) = doubts(0.02)
     assert 'state angle_of = "input" in [quantities.transmission_error] of campaign.toml' in text
     # Places of loops that count from the same zero may move with it.
-    assert 'assumed is that the angle is the output\'s (angle_of = "output")' in text and "either way" not in text and "may move" in text
+    assert 'the angle is taken for that of the output (angle_of = "output")' in text and "either way" not in text and "may move" in text
 
 
 @pytest.mark.parametrize("value, deviation", [(10.2, 6.0), (0.02, 1.0)])
