@@ -9,7 +9,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.prediction.conditions import LAG_SHARE
-from discrepancy.problem import Parameter
+from discrepancy.problem import Parameter, Record
 from discrepancy.scales import of_parameter
 from fmu_src.table import Table
 
@@ -22,10 +22,10 @@ OF_INPUT = 'angle_of = "input" in [quantities.transmission_error] of campaign.to
 FAR, SURELY = 3.0, 2.0
 
 
-def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = ()) -> list[str]:
+def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = (), records: Sequence[Record] = ()) -> list[str]:
     """One sentence for each doubtful number that was calibrated: at a bound, far from what is known, or a lag that no such reducer has.
 
-    ``effects`` are the parameters of the fit that are effects', which are judged elsewhere.
+    ``effects`` are the parameters of the fit that are effects', which are judged elsewhere; ``records`` the campaign's, whose loads a lag rests on.
     """
     # A misfit makes numbers less certain than the noise alone does.
     scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
@@ -39,7 +39,7 @@ def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str]
         if parameter.name == LAG_SHARE:
             # At its bound it is 0 but for what a solver leaves.
             told = f"calibrated {LAG_SHARE} = {readable(round(value, 4))}"
-            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)))]
+            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)), loads_of(records))]
         elif parameter.prior and abs(value - parameter.off) > FAR * parameter.prior:
             times = abs(value - parameter.off) / parameter.prior
             found.append(f"{told} lies {times:.1f} standard deviations from {scale.text(parameter.off, 3)}, which was known before: something else is in it")
@@ -53,17 +53,32 @@ def is_angle(parameter: Parameter) -> bool:
     return parameter.name.startswith("angle_zero")
 
 
-def lag_doubts(value: float, deviation: float) -> list[str]:
-    """What is said against a share of the lag known to ``deviation``; 1 is the model's own."""
+def loads_of(records: Sequence[Record]) -> list[float | None]:
+    """The loads [N.m] that tell a lag: those of a mounting that has more than one, as another mounting has a zero of its own; else no more than one."""
+    mountings: dict[str, set[float | None]] = {}
+    for record in records:
+        if record.of_output and not record.held_out:
+            mountings.setdefault(record.mounting, set()).add(record.factors.get("load"))
+    most = mountings[max(mountings, key=lambda mounting: len(mountings[mounting]))] if mountings else ()
+    return sorted(most, key=lambda load: -1.0 if load is None else load)
+
+
+def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = ()) -> list[str]:
+    """What is said against a share of the lag known to ``deviation`` from runs at ``loads`` [N.m]; 1 is the model's own."""
     low, high = PLAUSIBLE_LAG
     if low <= value <= high:
         return []
     if value < CLEAR_LAG[0] - SURELY * deviation:
-        return [f"(the model's own is 1): the output hardly lags, as if the angle was the input's over the ratio after all (state {OF_INPUT} if it was), or the"
-                " encoder was set to 0 under the load of each run; what is found is the same either way"]
+        return ['(the model\'s own is 1): the angle is taken for that of the output (angle_of = "output"), which then hardly lags: either it was the'
+                f" input's over the ratio after all (state {OF_INPUT} if it was, and diagnose again: places and directions of what is found may move), or the"
+                " encoder was set to 0 under the load of each run"]  # fmt: skip
     if value > CLEAR_LAG[1] + SURELY * deviation:
         return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
                 " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip
-    return [f"(the model's own is 1) is known to {deviation:.2g} only: the model's lag is fitted as {value:.2g} times what it is, for where loads are alike"
-            " the angle's zero makes up for it; runs at another load would tell the two apart (if one is held out, hold out another condition),"
-            f" and {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip
+    hardly = f"(the model's own is 1) is known to {deviation:.2g} only: the model's lag is fitted as {value:.2g} times what it is"
+    if len(loads) > 1:
+        known = [f"{load:.4g}" for load in loads if load is not None]
+        return [f"{hardly}, and the places of the pattern at {len(loads)} loads ({', '.join(known)} N.m) say it no better beside what is not explained;"
+                f" {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip
+    return [f"{hardly}, for all fitted runs of a mounting are at one load, where its zero makes up for it; runs at another load would tell the two apart"
+            f" (if one is held out, hold out another condition), and {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip

@@ -96,7 +96,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *locked_doubts(campaign))]
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
-    doubts += calibrated_doubts(space.base, as_told.tables_of(model))
+    doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records)
     doubts += [text for name, zero in model.locked_places.base().items() if (text := zero_text(name, zero * model.bench.ratio))]
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}

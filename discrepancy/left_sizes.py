@@ -6,9 +6,12 @@ from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.verdict import INCOMPLETE
 from discrepancy.verdict import Answer
 
+NOT_COUNTED = "; the verdict counts the patterns that carry the misfit, not this"
+
 
 def left_sizes(answer: Answer, title: Callable[[str], str] = str) -> str:
-    """What every sample is off by beside its noise, signal by signal: ``hysteresis: 1.1 times its noise (unused runs: 1.3)``; empty of other verdicts."""
+    """What every sample is off by beside its noise, signal by signal, and that no verdict counts it: ``hysteresis: 1.1 times its noise (unused runs: 1.3)``;
+    empty of other verdicts."""
     fits = answer.diagnosis.fits
     if answer.verdict != INCOMPLETE or not fits.members:
         return ""
@@ -16,7 +19,8 @@ def left_sizes(answer: Answer, title: Callable[[str], str] = str) -> str:
     found: dict[str, dict[bool, float]] = {}
     for row in by_signal(runs_of(space, space.predictions(fits.members[0].fit.values, list(range(len(space.records)))))):
         found.setdefault(row["signal"], {})[row["held_out"]] = row["ratio"]
-    return "; ".join(f"{title(signal)}: {size_text(ratios)}" for signal, ratios in found.items())
+    # It stands beside errors in the patterns that carry the misfit, which may be much larger or smaller.
+    return "; ".join(f"{title(signal)}: {size_text(ratios)}" for signal, ratios in found.items()) + NOT_COUNTED
 
 
 def size_text(ratios: dict[bool, float]) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -25,6 +26,7 @@ from discrepancy.prediction.unstated_places import locked
 from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
+from discrepancy.unstated_texts import without_place
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
@@ -46,6 +48,11 @@ MOUNTED_ANEW = (
     "off at all conditions alike, so that no other condition says more; mount sensor and unit anew and repeat: a misfit that changes with the mounting"
     " comes from the bench (sensor, its seat, alignment), one that stays from the reducer,"
     " from a scale that no mounting changes, or from the numbers of the base model"
+)
+# Of loops in which that may be the position of the input, which no mounting tells.
+POSITION_MISSING = (
+    f"{QUESTION}, so that they are predicted as the mean over a turn of the cranks: what is left at all conditions alike may be the position, which is"
+    f" missing before anything is mounted anew; {REMEDY}"
 )
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {
@@ -188,10 +195,15 @@ def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
         left.setdefault((law.signal, law.leading), 0.0)
     cost = REPEATS * (campaign.rig.cost_per_run if campaign.rig else 1.0)
     asked = []
+    unplaced = set(without_place(answer.model, answer.diagnosis))
     for (signal, name), size in left.items():
         runs = sum(stream_of(r) == signal and not r.held_out for r in answer.model.records)
         expected = REPEATS * size / runs if size and runs else None
-        if name == "everywhere":
+        missing = dict.fromkeys(r.condition for r in answer.model.records if stream_of(r) == signal and is_unplaced(r) and r.condition in unplaced)
+        if name == "everywhere" and missing:
+            # It costs nothing where somebody knows it.
+            asked.append(Asked(signal, POSITION_MISSING, f"loops in {', '.join(missing)}"))
+        elif name == "everywhere":
             asked.append(Asked(signal, MOUNTED_ANEW, "any condition of it, in another mounting", cost, expected))
         elif name in FACTORS_SET:
             asked.append(replace(at_gap(signal, name, answer.model, campaign), cost=cost, expected=expected))

@@ -5,11 +5,29 @@ import math
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
+from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
 from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import is_unplaced
+
+
+def without_place(model: PhysicalModel, found: Diagnosis) -> list[str]:
+    """Conditions of such loops that no place was found for beside what is named; none where that is a position itself."""
+    conditions = dict.fromkeys(record.condition for record in model.records if is_unplaced(record))
+    member = found.fits.members[0] if found.fits.members else None
+    if not conditions or member is None:
+        return list(conditions)
+    if POSITION in map(effect_of, member.candidates):
+        return []
+    places = model.unstated_places.taken(named_amplitudes(member), member.fit.values)
+    return [condition for condition in conditions if condition not in places]
+
+
+def named_amplitudes(member: Refit) -> Effects:
+    """Effects of a fit as places are found by them."""
+    return frozenset(p.name for c in member.candidates for p in c.amplitudes)
 
 
 def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
@@ -18,8 +36,7 @@ def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     member = found.fits.members[0] if found.fits.members else None
     if not conditions or member is None:
         return []
-    effects: Effects = frozenset(p.name for c in member.candidates for p in c.amplitudes)
-    places = model.unstated_places.taken(effects, member.fit.values)
+    places = model.unstated_places.taken(named_amplitudes(member), member.fit.values)
     period = model.unstated_places.period
     told = []
     for condition, place in places.items():
@@ -30,8 +47,8 @@ def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
             f"loops in {condition}: {QUESTION}; beside what is named they are as measured at about {angle:.0f} deg of the input, not as"
             f" the mean over a turn of the cranks ({turn:.0f} deg, after which they are much alike); state {LOCKED_AT} in the condition if you know it"
         )
-    left = [condition for condition in conditions if condition not in places]
-    if left and POSITION not in map(effect_of, member.candidates):
+    left = without_place(model, found)
+    if left:
         told.append(
             f"loops in {', '.join(left)}: {QUESTION}; they are predicted as the mean over a turn of the cranks: what is named or left in loops may be the"
             f" position; {REMEDY}"

@@ -4,7 +4,7 @@ The statistics speaks of candidates; several can be variants of one effect (a pi
 centre, or oval).  Here they are put together under the effect's name.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -80,6 +80,7 @@ class Answer:
         }
         return self.in_si() | {
             "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]],
+                            "forms": {form: [as_told.told_name(n, tables) for n in names] for form, names in e["forms"].items()},
                             "waves": [wave.as_json(tables) for wave in waves_of(e["parameters"])]}
                         for e in self.effects],
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
@@ -152,7 +153,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
         with task("recovering the law without a name"):
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
     # Beside what is named a number may be what it should be.
-    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), {p.name for p in best.own} if best else ())
+    own = {p.name for p in best.own} if best else ()
+    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), own, doctor.space.records)
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
@@ -186,7 +188,8 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
 
 def effects_of(found: Diagnosis, doctor: Diagnostician) -> list[dict[str, Any]]:
     """Effects by name; what was fitted together has the share of each alone, too."""
-    effects = merged([effect.to_dict() for effect in found.effects], found.verdict)
+    together = {c.name for c in found.fits.members[0].candidates} if found.fits.members else set()
+    effects = merged([effect.to_dict() for effect in found.effects], together)
     if not found.fits.members or len(found.fits.members[0].candidates) < 2:
         return effects
     return [effect | {"share_alone": share_alone(effect["candidates"], doctor, found)} for effect in effects]
@@ -201,19 +204,23 @@ def share_alone(names: list[str], doctor: Diagnostician, found: Diagnosis) -> fl
     return float(min(1.0, max(gain, 0.0) / max(together, 1e-300)) * found.captured)
 
 
-def merged(effects: list[dict[str, Any]], verdict: str) -> list[dict[str, Any]]:
-    """Variants of one effect under its name; the best variant speaks for those that are alternatives."""
+def merged(effects: list[dict[str, Any]], together: Container[str]) -> list[dict[str, Any]]:
+    """Variants of one effect under its name: the best speaks for those that are alternatives, all do that were fitted ``together``, with
+    ``forms``: variant -> its parameters."""
     found: dict[str, dict[str, Any]] = {}
     for entry in effects:
-        name, _, variant = entry["name"].partition(".")
-        entry = entry | {"name": name, "variant": variant, "candidates": [entry["name"]]}
+        candidate = entry["name"]
+        name, _, variant = candidate.partition(".")
+        entry = entry | {"name": name, "variant": variant, "candidates": [candidate], "forms": {}}
         if name not in found:
             found[name] = entry
             continue
         first = found[name]
-        first["candidates"] += entry["candidates"]
-        if verdict == SEVERAL:
+        if candidate in together and first["candidates"][0] in together:
+            first["forms"] = (first["forms"] or {first["variant"]: list(first["parameters"])}) | {variant: list(entry["parameters"])}
             first["parameters"] |= entry["parameters"]
             first["variant"] = f"{first['variant']} + {variant}"
+            first["at_bounds"] = [*first["at_bounds"], *entry["at_bounds"]]
             first["share_explained"] = min(1.0, first["share_explained"] + entry["share_explained"])
+        first["candidates"] += entry["candidates"]
     return list(found.values())

@@ -57,7 +57,7 @@ def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
     if effect.get("share_alone") is None:
         return share_text(answer, effect["share_explained"])
     others = "the others" if len(answer.effects) > 1 else "what of the base model is off"
-    return f"explains {percent(answer, effect['share_alone'])} of the misfit alone, adds {percent(answer, effect['share_explained'])} beside {others}"
+    return f"explains {percent(answer, effect['share_alone'])} of the misfit alone, adds {percent(answer, effect['share_explained'])} of it beside {others}"
 
 
 def together_text(answer: Answer) -> str:
@@ -170,7 +170,7 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
     if not by_unused_runs(answer, effect):
         return f"{not_judged_text(answer)}; leaving out one condition at a time: error {change} times the noise"
     if not below_noise(answer, effect):
-        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit"
+        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit (what the verdict counts)"
     units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}
     rows = [
         f"{name}: {shown(row['before'], units[name.partition('[')[0]], name)}, noise {shown(row['floor'], units[name.partition('[')[0]], name)}"
@@ -178,7 +178,7 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
     ]
     return (
         f"on unused conditions the samples are off by less than their noise ({'; '.join(rows)}), so that these runs prove little; in the"
-        f" patterns that carry the misfit {change}, with 1 for what noise leaves there"
+        f" patterns that carry the misfit (what the verdict counts) {change}, with 1 for what noise leaves there"
     )
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.again import command, outdated
-from reducers.completion.complete import ring_doubt
+from reducers.completion.again import command, doubts_again, outdated
 from reducers.completion.geometry import check_geometry, check_profile, largest_pin
 from reducers.completion.given import SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
@@ -99,7 +98,7 @@ def check(reducer: Reducer) -> Check:
         doubts.append(f"pin.radius = {pin:.4g} mm is nearly the largest without undercut, {most:.4g} mm")
     if not 0.4 <= figures["K1"] <= 0.95:
         doubts.append(f"K1 = e z_p / R_p = {figures['K1']:.3g}, where 0.4 to 0.95 is usual: look at crank.eccentricity and pin.circle_radius")
-    doubts += unusual(reducer, n, figures["ratio"]) if stage > 0.0 else []
+    doubts += [*unusual(reducer, n, figures["ratio"]), *doubts_again(reducer)] if stage > 0.0 else []
     rigid = [name for name in RIGID if n.get(name, 0.0) == 0.0] if not faults else []
     if rigid:
         doubts.append(f"{', '.join(rigid)}: not stated, and so rigid: a real reducer is several times softer, and looser")
@@ -130,8 +129,7 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
         f"{name} = {shown(reducer, name, n[name])}, where {usual} is usual: look at its unit"
         for name, low, high, usual in SPANS if name in n and not low <= n[name] <= high
     ]  # fmt: skip
-    torque, speed = abs(n["output.load_torque"]), output_rpm(n, ratio)
-    found += ring_doubt(MM * n["pin.circle_radius"], torque)
+    speed = output_rpm(n, ratio)
     if speed > FASTEST_RPM:
         told = shown(reducer, "input.speed", n["input.speed"])
         found.append(f"input.speed = {told} turns the output at {speed:.4g} rpm, where 5 to 100 is usual: look at its unit")

@@ -142,6 +142,13 @@ class Claim:
         return self.verdict if self.stands else FALLEN
 
     @property
+    def told(self) -> str:
+        """The outcome in words: of other numbers than the sources' it is said that these are judged, and that the claim is not of them."""
+        if not self.altered:
+            return self.outcome
+        return f"with other numbers than the source's{'' if self.is_moved else ', which move nothing here'}, judged anew: {self.outcome}"
+
+    @property
     def held(self) -> list[Number]:
         """Numbers of the source, with ours beside them."""
         return [number for number in self.numbers if number.published is not None]

@@ -28,6 +28,7 @@ from reproduce import (  # noqa: F401  each registers its claims
 )  # fmt: skip
 from reproduce.claim import REGISTRY, Claim
 from reproduce.context import Context
+from reproduce.kept import keep, with_sources_numbers
 from reproduce.moved import altered
 from reproduce.statements import chosen
 
@@ -40,15 +41,17 @@ def run(selected: list[str] | None = None, progress: Callable[[str], None] = lam
     """
     ids = chosen(selected)
     context = Context(lambda text: progress(f"  run   {text}"), changes)
-    # As the sources have it, to see what the changes move.
-    theirs = Context(lambda text: progress(f"  run   {text}, with the sources' numbers")) if changes else None
+    # As the sources have it, to see what the changes move; one for all claims that nobody computed before.
+    theirs = Context(lambda text: progress(f"  run   {text}, with the sources' numbers, this once"))
     claims = []
     for i, name in enumerate(ids, 1):
         begun = time.perf_counter()
         claim = REGISTRY[name](context)
-        if theirs is not None:
-            claim = altered(claim, context, REGISTRY[name](theirs))
+        if changes:
+            claim = altered(claim, context, with_sources_numbers(name, lambda: theirs))
+        else:
+            keep(claim)
         claims.append(claim)
-        progress(f"{i:3d}/{len(ids)}  {name}  {claim.title}: {claim.outcome} "
+        progress(f"{i:3d}/{len(ids)}  {name}  {claim.title}: {claim.told} "
                  f" ({time.perf_counter() - begun:.1f} s)")
     return claims

@@ -65,14 +65,15 @@ def print_table(claims: list[Claim]) -> None:
     for head in ("id", "claim", "verdict", "cause"):
         table.add_column(head, ratio={"claim": 3, "verdict": 2, "cause": 7}.get(head))
     for claim in claims:
-        verdict = claim.outcome if claim.stands else f"{claim.outcome} (was: {claim.verdict})"
+        verdict = claim.told if claim.stands else f"{claim.told} (was: {claim.verdict})"
         condition = f"{claim.condition}. " if claim.condition else ""
         condition = f"Condition: {condition}" if condition else ""
         table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.outcome]), condition + claim.why)
     console.print(table)
     if any(claim.held for claim in claims):
         console.print(figures_table(claims))
-    console.print("  ".join(f"{name} {count}" for name, count in counts_of(claims).items()), highlight=False)
+    counts = "  ".join(f"{name} {count}" for name, count in counts_of(claims).items())
+    console.print(f"other numbers: {counts}" if any(claim.altered for claim in claims) else counts, highlight=False)
     if any(claim.discrepancies for claim in claims):
         console.print(unconfirmed_table(claims))
 
@@ -102,7 +103,7 @@ def judged_table(title: str, heads: dict[str, int], rows: Sequence[tuple[Claim, 
         table.add_column(head, ratio=ratio)
     for claim, lines in rows:
         for k, cells in enumerate(lines):
-            verdict = Text(claim.outcome, STYLES[claim.outcome]) if k == 0 else Text("")
+            verdict = Text(claim.told, STYLES[claim.outcome]) if k == 0 else Text("")
             table.add_row(claim.id if k == 0 else "", *cells, verdict, end_section=k == len(lines) - 1)
     return table
 
@@ -120,7 +121,7 @@ def claim_data(c: Claim) -> dict[str, Any]:
         for n in c.numbers
     ]  # fmt: skip
     return {
-        "id": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict,
+        "id": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict, "told": c.told,
         "condition": c.condition,
         "why": c.why, "stands": c.stands, "numbers": numbers,
         "grounds": [{"text": text, "holds": holds} for text, holds in c.grounds],
@@ -137,11 +138,11 @@ def plain(value: Audited | None) -> float | list[float] | None:
 def tables_of(claims: list[Claim]) -> list[Export]:
     """Verdicts, and every number computed, published, printed and checked, for other programs."""
     verdicts = [
-        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.outcome, "condition": c.condition, "why": c.why} for c in claims
+        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.told, "condition": c.condition, "why": c.why} for c in claims
     ]  # fmt: skip
     numbers = [
         {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "low": nan(n.low), "high": nan(n.high), "theirs": span_text(n.published),
-         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.outcome, "cause": c.why}
+         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.told, "cause": c.why}
         for c in claims for n in c.numbers
     ]  # fmt: skip
     return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]

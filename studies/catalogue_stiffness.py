@@ -5,15 +5,13 @@ from dataclasses import replace
 
 from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
-from reducers.completion.complete import GIVEN, Completion, complete
+from reducers.completion.complete import AS_STIFF, Completion, complete
+from reducers.completion.doubts import FREE, stiffness_doubt
 from reducers.completion.file import reducer_at
 from reducers.completion.given import Given
 from reducers.reducer import Reducer
 from studies.hysteresis import hysteresis
 
-# How soft crank bearings are in place is what rules leave open, and what they were fitted for to catalogues.
-FREE = "crank.support_compliance"
-AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
 # As catalogues round.
 NEAR = 1e-3
 # The turning is nearly a straight line over the compliance: three steps come as near.
@@ -33,10 +31,7 @@ def as_stiff_as(given: Given, stiffness: float) -> Completion:
     found = compliance_of(reducer_at(by_rules, {}, "new"), number.value, stiffness)
     completion = complete(replace(given, known={**given.known, FREE: found}))
     source = f"{AS_STIFF}, {stiffness:g} N.m/arcmin"
-    doubts = [] if number.low <= found <= number.high else [
-        f"a torsional stiffness of {stiffness:g} N.m/arcmin asks for {FREE} = {found:.3g} {number.unit}, where rules give {number.low:.3g} to"
-        f" {number.high:.3g}: look at its unit, and at what else was given"
-    ]  # fmt: skip
+    doubts = stiffness_doubt(f"{stiffness:g} N.m/arcmin", found, number.low, number.high, number.unit)
     numbers = completion.numbers | {FREE: replace(completion.numbers[FREE], source=source)}
     return replace(completion, numbers=numbers, doubts=[*completion.doubts, *doubts])
 

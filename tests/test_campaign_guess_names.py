@@ -82,12 +82,17 @@ def test_what_two_quantities_need_is_asked_once(tmp_path, capsys):
     assert command.count("load_torque=...") == 1 and "--held-out" in command
 
 
-def test_files_that_fit_no_pattern_are_guessed_and_said(tmp_path):
-    folder = loop_files(error_files(tmp_path / "a", "te_50_1", "te_100_1"), "Hysterese_20C_Lauf1")
+def test_files_that_fit_no_pattern_are_guessed_and_said_where_others_of_their_kind_fit(tmp_path):
+    """A pattern of transmission errors made a doubt of each loop, which it was not meant for."""
+    folder = loop_files(error_files(tmp_path / "a", "te_50_1", "te_100_1", "Drehfehler_75Nm_Lauf1"), "Hysterese_20C_Lauf1")
     proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}",)))
-    assert proposal.conditions["20degC"] == {"temperature": "20 degC"} and {"50 N.m", "100 N.m"} == {c["load_torque"] for c in proposal.conditions.values() if "load_torque" in c}
+    loads = {c["load_torque"] for c in proposal.conditions.values() if "load_torque" in c}
+    assert proposal.conditions["20degC"] == {"temperature": "20 degC"} and {"50 N.m", "75 N.m", "100 N.m"} == loads
     said = [doubt for doubt in proposal.doubts if "fits none of the given names" in doubt.text]
-    assert [doubt.place for doubt in said] == ["Hysterese_20C_Lauf1.csv"] and "--names 'Hysterese_{temperature}C_Lauf{replicate}'" in said[0].remedy
+    assert [doubt.place for doubt in said] == ["Drehfehler_75Nm_Lauf1.csv"] and "--names 'Drehfehler_{load}Nm_Lauf{replicate}'" in said[0].remedy
+    without = propose([folder], Wishes("RV20E-121"))
+    loop, as_without = (next(run for run in found.runs if "Hysterese" in run.guessed.path.name) for found in (proposal, without))
+    assert loop.guessed.name == as_without.guessed.name
 
 
 def test_repetitions_that_do_not_count_from_one_are_doubted(tmp_path):

@@ -24,7 +24,7 @@ def options(*arguments: str) -> argparse.Namespace:
 
 
 def answer_of(verdict, names, rejected=(), laws=(), off=()):
-    effects = [{"name": n.partition(".")[0], "candidates": [n]} for n in names]
+    effects = [{"name": n.partition(".")[0], "candidates": [n], "forms": {}} for n in names]
     diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected], base_off=[SimpleNamespace(name=n, explains=e) for n, e in off])
     model = SimpleNamespace(campaign=SimpleNamespace(reducer=None))
     return SimpleNamespace(verdict=verdict, model=model, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws)
@@ -51,6 +51,14 @@ def test_what_is_incomplete_or_nearest_has_its_line(verdict, names, rejected, as
     again = parser().parse_args(shlex.split(line)[1:])
     assert again.effect == asked and again.json
     assert "no effect of the catalogue shows" in commands.refusal(options(), answer_of(NONE, []))
+
+
+@pytest.mark.parametrize(("forms", "asked"), [({"oval": ["a"], "scatter": ["b"]}, ["tooth.oval", "tooth.scatter"]), ({}, ["tooth.oval"])])
+def test_all_forms_are_added_that_were_fitted_together_and_one_of_those_that_look_alike(forms, asked):
+    answer = answer_of(INCOMPLETE, ["tooth.oval"])
+    answer.effects[0] |= {"candidates": ["tooth.oval", "tooth.scatter"], "forms": forms}
+    (line,) = lines(commands.refusal(options(), answer))
+    assert parser().parse_args(shlex.split(line)[1:]).effect == asked
 
 
 def test_a_recovered_law_has_the_line_that_drafts_it():

@@ -398,7 +398,7 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     found = replace(found, diagnosis=left)
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
-    assert "runout explains 93 % of the misfit alone, adds less than 1 % beside the others" in told
+    assert "runout explains 93 % of the misfit alone, adds less than 1 % of it beside the others" in told
     assert told.count("error on unused conditions") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)

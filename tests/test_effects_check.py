@@ -188,6 +188,19 @@ def test_every_word_of_signals_stands_on_the_page_and_no_other_is_taken():
     assert "did you mean hysteresis" in unknown(("histeresis",))[0]
 
 
+@pytest.mark.parametrize(("given", "message"), [
+    ('("input_torqe",)', "signals='input_torqe': no such quantity; did you mean input_torque; docs/effects.md has the words"),
+    ('("input_torque")', 'signals=("input_torque"): is read letter by letter; write signals=("input_torque",), with a comma'),
+])  # fmt: skip
+def test_a_mistyped_signal_is_refused_where_it_stands_before_anything_is_compiled(tmp_path, capsys, given, message):
+    """It came last, after the compiler, without a line, and a forgotten comma made a finding of every letter."""
+    file = written(tmp_path, LAW.replace('("input_torque",)', given), name="lip")
+    assert main(["effects", "--check", str(file)]) == 2
+    line = 1 + next(n for n, text in enumerate(file.read_text(encoding="utf-8").splitlines()) if "signals=" in text)
+    shown = capsys.readouterr()
+    assert shown.out.strip() == f"{file}:{line}: {message}" and "translating" not in shown.err
+
+
 @pytest.mark.parametrize(("old", "new", "line", "message"), [
     ('"my_size"', '"seal_torque"', 9, "the effect drag has a parameter seal_torque already"),
     ('"my_size"', '"pin_radius"', 9, "the unit has a parameter pin_radius already"),

@@ -12,10 +12,11 @@ from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
 from reducers.checking import check
-from reducers.completion.complete import NOT_ALONE, UNITS, complete, rounded_ratio
+from reducers.completion.complete import NOT_ALONE, UNITS, complete
+from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
-from reducers.completion.given import Given, usual_pins
+from reducers.completion.given import SUN, Given, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
 from studies.completed_ranges import Influence, influences, what_matters
@@ -166,7 +167,7 @@ def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
 
 def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
     assert "usual (cycloid handbooks): look at both" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
-    assert complete(Given(81, 40, 1600.0)).doubts == []
+    assert complete(Given(81, 40, 1600.0)).doubts == [] and complete(Given(81, 40, 1600.0, known={SUN: 18})).doubts == []
 
 
 @pytest.mark.parametrize("reducer, rated, tested, outside", [("RV20E-121-rigid", "167", 8, {"pin.radius"}), ("BX-40E-rigid", "412", 4, set())])
@@ -332,6 +333,25 @@ def test_what_somebody_measured_counts_for_given_and_what_hangs_on_it_is_outdate
     found = check(load_reducer(path))
     assert any(one.startswith("pin.radius = 6.3") and "R_p sin(pi/z_p)" in one for one in found.outdated)
     assert not any(one.startswith("pin.circle_radius") for one in found.outdated) and "--known pin.circle_radius=110mm" in found.completing
+
+
+@pytest.mark.parametrize(("options", "said"), [
+    (["--ratio", "105.3", "--rated", "500"], ["pins are assumed", "--ratio 105.3 is taken for a rounded one"]),
+    (["--ratio", "81", "--pins", "40", "--rated", "1600", "--diameter", "150"], ["pin.circle_radius = "]),
+    (["--ratio", "121", "--pins", "40", "--rated", "412", "--stiffness", "5Nm/arcmin"], ["a torsional stiffness of 5 N.m/arcmin asks for crank.support"]),
+])  # fmt: skip
+def test_the_check_of_a_file_repeats_what_was_doubtful_when_it_was_made(tmp_path, capsys, options, said):
+    path = str(tmp_path / "a.toml")
+    assert main(["reducer", "new", *options, "--output", path, "--json"]) == 0
+    made = json.loads(capsys.readouterr().out.partition("\n" + path)[0])["doubts"]
+    assert made == [text for text in check(load_reducer(path)).doubts if text in made] and all(any(words in text for text in made) for words in said)
+
+
+def test_a_sun_with_few_teeth_is_doubted_with_the_reason():
+    (said,) = sun_doubt(8)
+    assert "undercut without profile shift (2 / sin^2 20 deg = 17.1, standard basic rack of ISO 53); so few need 0.53 modules" in said
+    # Ten teeth are made with a shift of 0.42.
+    assert not sun_doubt(9) and not sun_doubt(17)
 
 
 def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monkeypatch):

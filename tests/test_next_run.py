@@ -117,6 +117,17 @@ def test_a_misfit_that_is_the_same_everywhere_is_asked_for_with_what_the_answer_
     assert "what comes again is the reducer's or the bench's" in proposal_for(answer_of(UNKNOWN), CAMPAIGN).open[0]
 
 
+@pytest.mark.parametrize(("place", "says"), [({}, "missing"), ({"locked_at": 0.0}, "mount sensor and unit anew")])
+def test_a_loop_that_lacks_its_position_is_asked_for_it_and_not_for_a_mounting(place, says):
+    """Another mounting has another position, of which nobody knows either."""
+    answer = answer_of(UNKNOWN, [], [{"signal": "hysteresis[locked=input]", "feature": "value", "dependence": "everywhere", "p": 1e-6}])
+    factors = {"load": 167.0, "temperature": 293.15} | place
+    answer.model.records.append(Record("l", "hysteresis", "rad", "warm", 1, np.zeros(5), {"torque": np.zeros(5)}, factors, tags={"locked": "input"}))
+    (asked,) = proposal_for(answer, CAMPAIGN).asked
+    assert says in asked.text and ("mount sensor" in asked.text) == bool(place)
+    assert bool(place) or ('state locked_at = "90 deg"' in asked.text and asked.like == "loops in warm" and asked.cost is None)
+
+
 @pytest.mark.parametrize(("names", "said"), [
     ([], "that no effect of the catalogue explains"), (["drag"], "that none of the effects tried beside it explains"),
     (["drag", "play"], "that none of the effects tried beside them explains"),

@@ -11,9 +11,9 @@ import pytest
 from cli.altered import note_of, noted_figure
 from cli.main import main
 from fmu_src.faults import InputFault
+from reproduce import kept, rig, wall
 from reproduce import printed_forms as printed
-from reproduce import rig, wall
-from reproduce.claim import CONDITIONAL, FALLEN, REPRODUCED, SOURCES, VERDICTS, Number
+from reproduce.claim import CONDITIONAL, FALLEN, REGISTRY, REPRODUCED, SOURCES, VERDICTS, Number
 from reproduce.judging import run
 from reproduce.moved import unmoved_in
 from reproduce.page import page_of, write_page
@@ -268,6 +268,29 @@ def test_a_number_that_moves_nothing_is_said_to(capsys, monkeypatch, tmp_path):
         "a=1, b=2 moved nothing in the figure of T24: numbers and curves there are the same without them"
     )  # fmt: skip
     assert not unmoved_in(run(["T05"]), [])
+
+
+def test_a_run_with_other_numbers_is_called_one_and_the_sources_are_computed_once(capsys, monkeypatch):
+    """"Reproduced" stood beside numbers that no source has, and each claim was computed twice, each time."""
+    made, judge = [], REGISTRY["T24"]
+
+    def counted(context):
+        made.append(context.changes)
+        return judge(context)
+
+    monkeypatch.setitem(REGISTRY, "T24", counted)
+    kept.place_of("T24").unlink(missing_ok=True)
+    changes = ["crank.eccentricity=1.29mm"]
+    (first,), (again,) = run(["T24"], changes=changes), run(["T24"], changes=["crank.eccentricity=1.28mm"])
+    assert made == [changes, (), ["crank.eccentricity=1.28mm"]]
+    assert first.told == f"with other numbers than the source's, judged anew: {first.outcome}" and again.is_moved
+    (still,) = run(["T05"], changes=["crank.circle_radius=38mm"])
+    assert not still.is_moved and still.told.startswith("with other numbers than the source's, which move nothing here, judged anew: ")
+    print_table([first])
+    said = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    assert "other numbers: reproduced " in said and "judged anew" in said
+    assert f'<span class="tag">{html.escape(first.told).replace("&#x27;", "&#39;")}</span>' in page_of([first], changes)
+    assert as_json([first])["claims"][0]["told"] == first.told and tables_of([first])[1].frame()["verdict"][0] == first.told
 
 
 def test_a_figure_says_what_was_set_and_whether_that_moved_it():

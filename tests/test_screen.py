@@ -14,8 +14,10 @@ from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
 from discrepancy.left_sizes import left_sizes
+from discrepancy.model_file import load_model
 from discrepancy.next_run import Asked, NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
+from discrepancy.verdict import merged
 from discrepancy.wording import error_text, is_shown, left_text, share_text, shares_text, tone
 from fmu_src.progress import Task
 
@@ -98,7 +100,7 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
     entry = {"before": before, "after": after, "rms": rms} | ({"kind": kind} if kind else {})
     diagnosis = SimpleNamespace(fits=SimpleNamespace(space=space, members=[]), held_out={"play": entry}, leftover=leftover or {}, captured=1.0, reason="r",
                                 alternatives={}, rejected=[], base_off=[], nuisances={})
-    effect = {"name": "play", "variant": "", "candidates": ["play"], "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
+    effect = {"name": "play", "variant": "", "candidates": ["play"], "forms": {}, "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
     return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[],
                            model=None)
@@ -110,7 +112,7 @@ def test_what_leaves_something_does_not_explain_all():
     assert share_text(answer, 1.0) == "explains over 99.99 % of the misfit" and share_text(answer, 0.6) == "explains 60 % of the misfit"
     assert share_text(answer, 0.99984) == "explains 99.98 % of the misfit"
     alone = answer.effects[0] | {"share_alone": 0.99984, "share_explained": 0.3}
-    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 %")
+    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 % of it beside")
     assert left_text(answer) == f"{SIGNAL}, value, changing with hours"
     assert share_text(answer_of(ONE, True), 1.0) == "explains 100 % of the misfit"
 
@@ -123,8 +125,30 @@ def test_what_is_left_is_sized_signal_by_signal(capsys):
     for record in space.records:
         record.tags, record.condition, record.replicate = {}, "c", 1
     shows.show_answer(answer)
-    assert "every sample is off by  hysteresis: 1.1 times its noise (unused runs: 2)" in capsys.readouterr().out
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "every sample is off by hysteresis: 1.1 times its noise (unused runs: 2); the verdict counts the patterns that carry the misfit, not this" in shown
+    assert "error on unused conditions 28.00 -> 1.20 times the noise, in the patterns that carry the misfit (what the verdict counts)" in shown
     assert left_sizes(answer_of(ONE, True)) == ""
+
+
+def test_forms_that_are_added_together_stand_each_with_its_values(capsys):
+    """An oval and a scatter were one effect: their values stood under one name, or those of the scatter nowhere."""
+    forms = {"disc_tooth_errors.oval_form": {"oval": 4e-6}, "disc_tooth_errors.scatter": {"scatter": 1e-6}, "play": {"gap": 1e-6}}
+    parts = [{"name": name, "parameters": {p: {"value": v, "interval": (0.9 * v, 1.1 * v), "unit": "m"} for p, v in values.items()}, "share_explained": 0.5,
+              "at_bounds": [], "held_out_error_before": None, "held_out_error_after": None} for name, values in forms.items()]  # fmt: skip
+    # Alternatives are one fit each; the first speaks.
+    alike, _ = merged(parts, {"disc_tooth_errors.oval_form"})
+    assert not alike["forms"] and set(alike["parameters"]) == {"oval"} and len(alike["candidates"]) == 2
+    effect, _ = merged(parts, set(forms))
+    assert effect["forms"] == {"oval_form": ["oval"], "scatter": ["scatter"]} and effect["share_explained"] == 1.0
+    answer = answer_of(INCOMPLETE, True)
+    answer.effects = [effect]
+    answer.model = SimpleNamespace(campaign=SimpleNamespace(), file=SimpleNamespace(reducer=load_model("RV20E-121").reducer, effects={}, values=dict))
+    answer.diagnosis.fits.members = []
+    shows.show_answer(answer)
+    shown = capsys.readouterr().out
+    found = [shown.index(text) for text in ("disc_tooth_errors (oval form + scatter)", "\n  oval form:\n", "4 um", "\n  scatter:\n", "1 um")]
+    assert found == sorted(found)
 
 
 def test_error_below_the_noise_is_not_many_times_the_noise(capsys):

@@ -69,7 +69,7 @@ def check_files(files: list[Path], as_json: bool) -> int:
     from cli.screen import json_text
     from fmu_src.effect_check import check_any_file
 
-    findings = {str(file): check_any_file(file) or tried(file) for file in files}
+    findings = {str(file): check_any_file(file) or unknown_words(file) or tried(file) for file in files}
     if as_json:
         shown = {name: [{"line": f.line, "text": f.text} for f in found] for name, found in findings.items()}
         json_text({"findings": shown})
@@ -121,16 +121,22 @@ def tried(file: Path) -> "list[Finding]":
         if refused := not_translated(file.absolute()):
             return refused
     with task(f"trying {file.name} with its amplitudes off"):
-        return changes_when_off(file.absolute()) or unknown_words(file)
+        return changes_when_off(file.absolute())
 
 
 def unknown_words(file: Path) -> "list[Finding]":
-    """Quantities that no campaign has, in which an effect would never be looked for."""
+    """Quantities that no campaign has, in which an effect would never be looked for, at the line where they stand."""
+    import ast
+
     from discrepancy.catalogue.signal_words import unknown
     from fmu_src.effect_check import Finding, imported
 
     module = imported(file.absolute(), file.absolute().parent.name)[0]
-    return [Finding(file, 0, text) for text in (unknown(module.EFFECT.signals) if module else ())]
+    texts = unknown(module.EFFECT.signals) if module else []
+    if not texts:
+        return []
+    given = [node for node in ast.walk(ast.parse(file.read_bytes())) if isinstance(node, ast.keyword) and node.arg == "signals"]
+    return [Finding(file, given[0].lineno if given else 0, text) for text in texts]
 
 
 def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]":

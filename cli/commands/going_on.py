@@ -52,7 +52,7 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
     if answer.confusable:
         lines = [extend_line(options, effect["candidates"][:1]) for effect in answer.effects]
         return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
-    named = [candidate for effect in answer.effects for candidate in effect["candidates"]]
+    named = [candidate for effect in answer.effects for candidate in added_of(effect)]
     nearest = named or [rival["name"] for rival in found.rejected[:1]]
     # A law that was recovered without a name can become an effect.
     drafted = f"; this one makes an effect of the law that was recovered:\n  {extend_line(options, (), draft=True)}" if law_with_a_form(answer) else ""
@@ -97,7 +97,12 @@ def first_to_add(answer: "Answer") -> "dict[str, Any] | None":
 
 def named_in(answer: "Answer") -> list[str]:
     """Candidates of all that a diagnosis names: effects, and numbers of the base model beside them."""
-    return [candidate for effect in answer.effects for candidate in effect["candidates"]] + numbers_of(answer)
+    return [candidate for effect in answer.effects for candidate in added_of(effect)] + numbers_of(answer)
+
+
+def added_of(effect: "dict[str, Any]") -> list[str]:
+    """Candidates of an effect that are added: all forms that were fitted together, of those that look alike the one whose values are told."""
+    return list(effect["candidates"]) if effect["forms"] else effect["candidates"][:1]
 
 
 def numbers_of(answer: "Answer") -> list[str]:

@@ -18,7 +18,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     claims.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE",
         help="another number of the reducers than the sources': bearing.clearance=10um; verdicts need not hold then, and the exit code is 0;"
-        " what it does not move is said (each claim is computed with the sources' numbers, too)",
+        " what it does not move is said (each claim is computed with the sources' numbers, too, unless a command did so before)",
     )  # fmt: skip
     add_json(claims)
     add_exports(claims)

@@ -130,19 +130,13 @@ def show_answer(answer: Answer) -> None:
     for effect in answer.effects:
         variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
-        # Waves by their size, largest first: of ten numbers that is what one asks for.
-        for wave in sorted(waves_of(effect["parameters"]), key=lambda w: -w.amplitude):
-            value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
-            names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
-            out.print(f"  amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
-        for name, number in effect["parameters"].items():
-            value, interval, unit = estimate_texts(number)
-            bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
-            out.print(f"  {told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
-            if number.get("meaning"):
-                out.print(f"    {number['meaning']}")
-            if more := with_base_text(number):
-                out.print(f"    {more}")
+        if effect["forms"]:
+            # Each is added by itself: whose a value is says its heading.
+            for form, names in effect["forms"].items():
+                out.print(f"  {form.replace('_', ' ')}:")
+                show_parameters({name: effect["parameters"][name] for name in names}, answer, out, "    ")
+        else:
+            show_parameters(effect["parameters"], answer, out, "  ")
         if held := held_text(effect["name"], answer.model):
             out.print(f"  {held}")
         error = "" if fitted_together(answer) else error_text(answer, effect)
@@ -169,6 +163,23 @@ def show_answer(answer: Answer) -> None:
         out.print("\nclosest rivals")
         for rival in rejected:
             out.print(f"  {rival['name']}: {rival['reason']}")
+
+
+def show_parameters(parameters: Mapping[str, Mapping[str, Any]], answer: Answer, out: Console, indent: str) -> None:
+    """Estimates with their intervals, a line each, behind ``indent``."""
+    # Waves by their size, largest first: of ten numbers that is what one asks for.
+    for wave in sorted(waves_of(parameters), key=lambda w: -w.amplitude):
+        value, interval, unit = parameter_texts(wave.amplitude, wave.interval, wave.unit)
+        names = " and ".join(told_name(name, tables_of(answer.model)) for name in (wave.cosine, wave.sine))
+        out.print(f"{indent}amplitude of {names} = {value}{unit and f' {unit}'}   95 %: {interval}; phase {wave.phase:.0f} deg")
+    for name, number in parameters.items():
+        value, interval, unit = estimate_texts(number)
+        bound = "   a bound: it is more than all that was measured" if number.get("bound") else ""
+        out.print(f"{indent}{told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}   95 %: {interval}{bound}")
+        if number.get("meaning"):
+            out.print(f"{indent}  {number['meaning']}")
+        if more := with_base_text(number):
+            out.print(f"{indent}  {more}")
 
 
 def show_extension(extension: Extension) -> None:

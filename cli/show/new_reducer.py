@@ -6,9 +6,9 @@ from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.completion.compare import Row
-from reducers.completion.complete import COMPLETED, GIVEN, Completion
+from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
+from reducers.completion.doubts import FREE
 from reducers.completion.known import FROM_OPTIONS
-from studies.catalogue_stiffness import AS_STIFF, FREE
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.

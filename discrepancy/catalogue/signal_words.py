@@ -19,4 +19,7 @@ def words() -> dict[str, tuple[str, tuple[str, ...]]]:
 def unknown(signals: Sequence[str]) -> list[str]:
     """A sentence for each word that no campaign has: nothing would ever be looked for there."""
     known = words()
-    return [f"signals={word!r}: no such quantity{nearest(word, known, 1)}; docs/effects.md has the words" for word in signals if word not in known]
+    if isinstance(signals, str):
+        # One word in brackets, without a comma, is no tuple.
+        return [f'signals=("{signals}"): is read letter by letter; write signals=("{signals}",), with a comma']
+    return [f"signals={word!r}: no such quantity{nearest(word, known, 1).rstrip('?')}; docs/effects.md has the words" for word in signals if word not in known]

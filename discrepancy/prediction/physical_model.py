@@ -186,8 +186,9 @@ class PhysicalModel:
         asked = self.asked(values)
         own = self.own(record, asked)
         found = self.observed(record, own, None, False) + self.cages.found(record, own)
-        left: Floats = record.values - (self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found)
-        return left - left.mean()
+        left = record.values - (self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found)
+        centred: Floats = left - left.mean()
+        return centred
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""

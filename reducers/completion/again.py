@@ -6,14 +6,16 @@ A completed file keeps its numbers when somebody changes teeth or a measure by h
 import re
 import shlex
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from typing import Protocol
 
 from fmu_src.faults import InputFault
 from fmu_src.table import Table
 from fmu_src.units import conversion
-from reducers.completion.command import described, usual_name, words_of
-from reducers.completion.complete import COMPLETED, RULES, UNITS, dials_for, numbers_of
+from reducers.completion.command import PINS_ASSUMED, described, usual_name, words_of
+from reducers.completion.complete import AS_STIFF, COMPLETED, RULES, UNITS, complete, dials_for, numbers_of
 from reducers.completion.dials import dials_of
+from reducers.completion.doubts import FREE, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
 from reducers.completion.given import SUN, Given
 from reducers.completion.known import FROM_OPTIONS
 from reducers.usual import DERIVED, FAR, USUAL
@@ -75,6 +77,37 @@ def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | Non
         )  # fmt: skip
     except InputFault:
         return None
+
+
+def doubts_again(reducer: Reducer) -> list[str]:
+    """What was said to be doubtful when the file was completed; of any other file what its own numbers say of the same."""
+    given, numbers, sources = given_again(reducer), in_units(reducer), sources_of(reducer)
+    ring, rated, sun = numbers["pin.circle_radius"], abs(numbers["output.load_torque"]), numbers.get(SUN)
+    plain = ring_doubt(ring, rated) + (sun_doubt(sun) if sun is not None else [])
+    if given is None:
+        return plain
+    stiff = stiff_again(given, numbers, sources)
+    if sun is None:
+        return plain + stiff
+    if (told := DESCRIBED.match(reducer.description)) and alike(told[2], given.ratio):
+        # The description alone has the ratio as it was given, and says whether somebody counted the pins.
+        given = replace(given, ratio=float(told[2]), pins_counted=PINS_ASSUMED not in reducer.description)
+    try:
+        return doubts_of(replace(given, known={**given.known, SUN: sun}), ring, sun) + stiff
+    except InputFault:
+        # Teeth that do not go with each other are told as a fault.
+        return plain + stiff
+
+
+def stiff_again(given: Given, numbers: Mapping[str, float], sources: Mapping[str, str]) -> list[str]:
+    """Whether the supports that make a catalogue's stiffness are far from those by rules."""
+    if not sources.get(FREE, "").startswith(AS_STIFF):
+        return []
+    try:
+        by_rules = complete(replace(given, known={name: value for name, value in given.known.items() if name != FREE})).numbers[FREE]
+    except InputFault:
+        return []
+    return stiffness_doubt(sources[FREE].removeprefix(f"{AS_STIFF}, "), numbers[FREE], by_rules.low, by_rules.high, by_rules.unit)
 
 
 def command(reducer: Reducer, measured: Collection[str] = ()) -> str:

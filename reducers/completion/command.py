@@ -8,6 +8,9 @@ from reducers.completion.given import Given
 # Digits that somebody may have typed, and those of a number with more.
 MOST_TYPED, CONVERTED = 8, 6
 
+# What the description of a file says of pins that nobody counted.
+PINS_ASSUMED = "pins assumed"
+
 
 def words_of(given: Given) -> list[str]:
     """``rvwear reducer new`` with all options but names of reducer and file; what is usual is left out, but for speed and rollers."""
@@ -34,4 +37,5 @@ def usual_name(given: Given) -> str:
 
 def described(given: Given) -> str:
     """The description of a completed reducer in its file."""
-    return f"ratio {given.ratio:g}, rated {given.rated:g} N m at {given.speed:g} rpm of the output, completed by design rules"
+    assumed = "" if given.pins_counted else f", {PINS_ASSUMED}"
+    return f"ratio {given.ratio:g}, rated {given.rated:g} N m at {given.speed:g} rpm of the output{assumed}, completed by design rules"

@@ -5,8 +5,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reducers.completion.dials import ASSUMED, Dial, dials_of
+from reducers.completion.doubts import doubts_of
 from reducers.completion.geometry import check_geometry
-from reducers.completion.given import Given
+from reducers.completion.given import SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS, SUPPORT_RULES, SUPPORT_UNITS, supports_of
 
 # In the order of the file; all that is computed here is in these units.
@@ -39,13 +40,13 @@ RULES = {
 # None of these may move alone: races and rollers fit each other, teeth are whole.
 NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_stage.sun_teeth")
 COMPLETED, GIVEN = "completed", "given"
+# Source of crank supports: how soft they are in place is what rules leave open, and what they were fitted for to catalogues.
+AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
 PALMGREN = 8.06e4
 # kg/mm^3
 STEEL = 7.85e-6
 # By so many teeth a sun may have more than the fewest (assumed).
 SUN_MORE = 10
-# Pin circle radius [mm] over the cube root of the torque [N mm] that is usual (cycloid handbooks).
-TORQUE_SHARE = (0.85, 1.3)
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ def complete(given: Given) -> Completion:
         if name == "first_stage.sun_teeth" and name not in given.known:
             low, high = value, value + SUN_MORE
         numbers[name] = Number(name, UNITS[name], value, low, high, source_of(given, name, by_name), tuple(reached))
-    return Completion(given, dials, numbers, [*pins_doubt(given), *rounded_ratio(given), *ring_doubt(values["pin.circle_radius"], given.rated)])
+    return Completion(given, dials, numbers, doubts_of(given, values["pin.circle_radius"], values[SUN]))
 
 
 def dials_for(given: Given) -> list[Dial]:
@@ -212,34 +213,3 @@ def races(given: Given, dial: Mapping[str, float], room: float) -> tuple[float, 
     if roller is None:
         roller = hole * per_pitch / (1.0 + per_pitch) if inner is None else 0.5 * (hole - inner)
     return hole, roller
-
-
-def rounded_ratio(given: Given) -> list[str]:
-    """That whole teeth make another ratio than the one that is given, if they do."""
-    planet, sun = given.teeth
-    made = 1.0 + given.pins * planet / sun
-    if abs(made - given.ratio) < 1e-6 * given.ratio:
-        return []
-    teeth = f"planets of {planet} and a sun of {sun} teeth with {given.pins} pins"
-    return [f"--ratio {given.ratio:g} is taken for a rounded one: {teeth} make {made:.6g}, which the file has"]
-
-
-def pins_doubt(given: Given) -> list[str]:
-    """That nobody counted the pins, if so."""
-    if given.pins_counted:
-        return []
-    return [
-        f"{given.pins} pins are assumed, as many as reducers of this kind have: count them, or take them from a transmission error (its orders pins of"
-        " the output's turn are the cranks', 2 x lobes the ring's), and give --pins"
-    ]  # fmt: skip
-
-
-def ring_doubt(radius: float, torque: float) -> list[str]:
-    """That a ring of this radius [mm] is unusual for this torque [N m], if it is."""
-    share = radius / math.cbrt(1e3 * torque) if torque else TORQUE_SHARE[0]
-    if TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
-        return []
-    return [
-        f"pin.circle_radius = {radius:.4g} mm is {share:.3g} times the cube root of the torque (rated, output.load_torque) of {torque:.6g} N m in N mm,"
-        f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks): look at both, and at their units"
-    ]  # fmt: skip

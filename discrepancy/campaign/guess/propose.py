@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -113,7 +114,8 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     guessed = [without_what_is_given(run, {by_state[state], name}, wishes) for run, state, name in zip(guessed, states, names)]
     runs = placed(guessed, names)
     angle_of, of_angles = whose_angle(zip(names, guessed), conditions, wishes)
-    doubts = [*merged([*(d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))), *of_angles]), *idle_tags(guessed, wishes)]
+    of_runs = [d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]
+    doubts = [*merged([*of_runs, *unfitting(guessed), *of_angles]), *idle_tags(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
     doubts += different_in_columns(in_conditions, conditions)
     unplaced = positions_asked(in_conditions, conditions)
@@ -257,6 +259,16 @@ def held(wishes: Wishes, conditions: dict[str, dict[str, str]], joined: dict[str
         if name not in conditions and name not in joined:
             raise InputFault(f"--held-out {name}: there is no such condition; choose from {', '.join(conditions)}")
     return {joined.get(name, name): Guess(True, "given") for name in wishes.held_out}
+
+
+def unfitting(runs: Sequence[GuessedRun]) -> list[Doubt]:
+    """Names that fit none of the given patterns, which others of their quantity do: they are guessed as without; of other kinds no pattern was meant."""
+    meant = {run.quantity.value for run in runs if run.name.given}
+    return [
+        Doubt(run.path.name, f"fits none of the given names and is guessed as {run.name.pattern}",
+              f"{shlex.join(['--names', run.name.pattern])} beside the others, corrected")
+        for run in runs if not run.name.given and run.quantity.value in meant
+    ]  # fmt: skip
 
 
 def merged(doubts: Sequence[Doubt]) -> list[Doubt]:

@@ -1,7 +1,6 @@
 """One file's run: its quantity, columns, units, tags."""
 
 import re
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -109,7 +108,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     found = as_stated(found, stated)
     best = found[0]
     quantity = quantity_guess(found, wanted, path)
-    doubts = [*table.doubts, *unfitting(path, name, wishes), *unsure_units(path, name), *not_taken(path, best, stated)]
+    doubts = [*table.doubts, *unsure_units(path, name), *not_taken(path, best, stated)]
     if not quantity.sure:
         doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
     by_name = {c.name: c for c in columns}
@@ -171,14 +170,6 @@ def as_stated(found: list[Assignment], stated: Mapping[str, str]) -> list[Assign
     """What is stated wins over what looks likelier: those that follow most of it."""
     followed = [sum(role in a.roles and a.roles[role].value == name for role, name in stated.items()) for a in found]
     return [a for a, count in zip(found, followed) if count == max(followed)]
-
-
-def unfitting(path: Path, name: Parsed, wishes: Wishes) -> list[Doubt]:
-    """A name that fits none of the patterns that are given: it is guessed as without them."""
-    if not wishes.names or name.given:
-        return []
-    remedy = f"{shlex.join(['--names', name.pattern])} beside the others, corrected"
-    return [Doubt(path.name, f"fits none of the given names and is guessed as {name.pattern}", remedy)]
 
 
 def unsure_units(path: Path, name: Parsed) -> list[Doubt]:
