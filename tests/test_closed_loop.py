@@ -46,6 +46,14 @@ def test_what_ends_a_little_before_its_start():
     assert is_closed(torque, branches(cycle())[:-1])
 
 
+def test_samples_about_no_torque_may_be_left_out():
+    """A bench that writes no sample without torque ends two steps before its start's."""
+    torque, turning = cycle(40), branches(cycle(40))
+    kept = np.abs(torque) > 1e-9
+    assert torque[kept][-1] < 0.0 < torque[kept][0] and is_closed(torque[kept], turning[kept])
+    assert not is_closed(torque[kept], at_rest(torque)[kept])
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_noise_does_not_matter(seed):
     rng, torque = np.random.default_rng(seed), cycle()
@@ -104,6 +112,15 @@ def test_the_second_cycle_of_a_reducer_with_friction(real):
     assert error(False, first) < STEPS
     # As if from rest it is off by its first quarter, and all by their means.
     assert error(False, second) > 20.0 * STEPS
+
+
+def test_it_comes_through_no_torque_by_the_same_way_wherever_samples_lie(real):
+    """What friction keeps of the play depends on the step through it: the samples that are measured next to no torque do not make it."""
+    file, torque, _, _ = real
+    bench, some = Bench(file.reducer, {}), np.abs(torque) > 6.0
+    shown = signal(OverTorque(bench, record_of(torque[np.abs(torque) > 2.0], None, True), is_exact=True), OVAL)[some[np.abs(torque) > 2.0]]
+    fewer = signal(OverTorque(bench, record_of(torque[some], None, True), is_exact=True), OVAL)
+    assert np.abs(shown - fewer).max() < 0.1 * STEPS
 
 
 def test_changes_go_the_same_way(real):

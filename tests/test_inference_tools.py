@@ -204,3 +204,30 @@ def test_amplitudes_that_a_campaign_cannot_see_are_left_off():
     assert seen.values.shape == (50, 2) and [(b.columns, b.signs) for b in seen.blocks] == [(slice(0, 1), (0,)), (slice(1, 2), (1,))]
     again, whole = only_seen(candidates, columns, {"eccentricity": candidates[0]})
     assert again == candidates and whole.values.shape == (50, 3)
+
+
+def test_what_is_placed_beside_an_effect_is_placed_anew_when_its_fit_has_moved_on(monkeypatch):
+    """Cages that were placed where a search had left an effect hold its fit back."""
+    candidate = Candidate("a", "a", (Parameter("a", "1", 0.0, -9.0, 9.0, 1.0),))
+    placed = []
+
+    class Settled:
+        def settle(self, values):
+            placed.append(values["a"])
+            return True
+
+        def unsettled(self, values):
+            return False
+
+    # Each fit goes half of what is left of the way from where the cages were placed to 1; known to 0.2.
+    def fitted(space, fit, candidates):
+        return SimpleNamespace(chi2=1.0, values={"a": 0.5 * (placed[-1] + 1.0)}, parameters=candidate.parameters), np.array([[0.04]])
+
+    monkeypatch.setattr("discrepancy.inference.refit.refits.in_earnest", fitted)
+    monkeypatch.setattr("discrepancy.inference.refit.refits.finished", lambda space, chosen, fit, covariance: Refit(chosen, fit, 0.0, np.zeros(0), covariance))
+    refits = Refits(SimpleNamespace(predictions=Settled(), model=None), [candidate])
+    monkeypatch.setattr(refits, "otherwise", lambda result: result)
+    rough = SimpleNamespace(chi2=2.0, values={"a": 0.0}, parameters=candidate.parameters)
+    refits.renewed(Refit((candidate,), rough, 0.0, np.zeros(0), np.zeros((1, 1))))
+    # The third was fitted from nearer than it is known.
+    assert placed == [0.0, 0.5, 0.75]

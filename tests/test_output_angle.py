@@ -9,8 +9,11 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import LAG_SHARE
+from discrepancy.prediction.curves import OverAngle, signal
+from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
+from discrepancy.problem import Record
 from fmu_src.faults import InputFault
 
 ARCSEC = math.pi / 648000.0
@@ -100,3 +103,26 @@ def test_a_run_without_an_angle_has_none_to_state(folder, tmp_path):
     (tmp_path / "campaign.toml").write_text(text)
     with pytest.raises(InputFault, match=r"runs\[1\] \(a\)\.angle_of = 'output': lost_motion of this run has no angle; leave it out"):
         load_campaign(tmp_path)
+
+
+def test_an_encoder_on_the_output_turns_with_the_error_itself():
+    """A sample is the error at the input's angle: an order that is high bends its own curve, and shows at twice itself."""
+    file, ideal = load_model(REDUCER), np.linspace(0.0, 2.0 * math.pi, 1800, endpoint=False)
+    lobe, condition = {"lobe_throw_error_1": 2e-5}, Condition(SPEED * math.pi / 30.0, 60.0)
+    bench = Bench(file.reducer, {})
+    error = bench.column("transmission_error", condition, lobe, ideal)
+    lag = float(error.mean())
+    factors = {"speed": condition.speed, "load": 60.0, "temperature": condition.temperature, "direction": 1.0}
+
+    def left(of_output):
+        # Angles are counted from where the output stands on average.
+        angle = ideal + (error - lag) * of_output
+        record = Record("r", "transmission_error", "rad", "a", 1, error, {"angle": angle}, factors, of_output=of_output)
+        values = {**lobe, LAG_SHARE: 0.0}
+        return float(np.std(signal(OverAngle(bench, record, "transmission_error"), values) - error)) / ARCSEC
+
+    bench.fineness = Fineness([Record("r", "transmission_error", "rad", "a", 1, error, {"angle": ideal}, factors, stated_noise=1e-9)])
+    assert left(False) < 1e-6
+    straight = float(np.std(np.gradient(error, ideal) * (error - lag))) / ARCSEC
+    # What is left are kinks, where a contact comes or goes.
+    assert straight > 0.05 and left(True) < 0.15 * straight
