@@ -19,7 +19,7 @@ from typing import Any
 
 import tomlkit
 from pydantic import Field, ValidationError, field_validator
-from tomlkit.items import InlineTable
+from tomlkit.items import InlineTable, Table
 
 from discrepancy.campaign.amount import split
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
@@ -258,9 +258,17 @@ def save_model(model: ModelFile, path: Path) -> None:
     if model.steps:
         steps = tomlkit.aot()
         for step in model.steps:
-            steps.append(tomlkit.item(told_of(step)))
+            steps.append(written_step(step))
         document["steps"] = steps
     write_text(path, tomlkit.dumps(document))
+
+
+def written_step(step: dict[str, Any]) -> Table:
+    """A step as the file has it; its calibrated numbers have SI units, of which nothing else there would tell."""
+    item: Table = tomlkit.item(told_of(step))
+    if item.get("nuisances"):
+        item["nuisances"].comment("calibrated, in SI units: angles in rad")
+    return item
 
 
 def as_read(reducer: Reducer, name: str, value: float | int) -> tuple[str, float | int | str]:

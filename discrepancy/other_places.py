@@ -84,10 +84,12 @@ def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[
             continue
         names = [p.variable.name for p in groups(effect)[sibling][0]]
         zeros = {name: rest.get(name, zero) + model.wave * turned for name, zero in model.zeros.items()}
-        for sign in (1.0, -1.0):
+        # Where nobody says the place of loops it is as well half a turn of the cranks on.
+        loops = ({}, model.unstated_places.other(fitted)) if model.unstated_places.found else ({},)
+        for sign, locked in product((1.0, -1.0), loops):
             there = {new: sign * fitted[old] for old, new in zip(own, names)} | {p.variable.name: float(n) for p, n in zip(chosen, numbers)}
-            values = {**rest, **zeros, **there}
-            with model.locked_as(values):
+            values = {**rest, **zeros, **there, **locked}
+            with model.locked_as(values, fitted):
                 same = shows_the_same(values)
             if same:
                 looked = f"{effect_of(candidate)}.{sibling.replace(' ', '_')}" if numbers == here and sibling != group else None

@@ -85,6 +85,18 @@ def test_the_other_place_that_looks_alike_is_half_a_turn_of_the_cranks_on(bench)
     assert places.half_a_turn_on(frozenset(), {}, predicted(bench)) == {}
 
 
+def test_the_same_effect_at_another_part_is_tried_with_the_places_of_the_first(bench):
+    """Which place was found beside one lobe holds for the other, which looks alike: else its loops are means over positions, and look like nothing."""
+    loop, places = places_of(bench, math.radians(700.0))
+    places.place(OVAL, {}, predicted(bench), explained)
+    other = frozenset({"at another part"})
+    with places.tried(other, OVAL):
+        assert places.taken(other, {}) == places.taken(OVAL, {}) != {}
+        [there], [further] = (places.taken(other, values).values() for values in ({}, places.other({})))
+        assert further - there == pytest.approx(PERIOD / 2.0)
+    assert places.taken(other, {}) == {}
+
+
 def test_a_mean_over_positions_has_no_place(bench):
     loop, places = places_of(bench, None)
     assert not places.place(OVAL, {}, predicted(bench), explained)

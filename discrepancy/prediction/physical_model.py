@@ -1,7 +1,7 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -332,10 +332,13 @@ class PhysicalModel:
         """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""
         return self.one(record, values if which else {n: v for n, v in values.items() if n not in effects}, True)
 
-    def locked_as(self, values: Mapping[str, float]) -> AbstractContextManager[None]:
-        """Inputs are locked where ``values`` have them, as long as that is asked."""
+    @contextmanager
+    def locked_as(self, values: Mapping[str, float], fitted: Mapping[str, float]) -> Iterator[None]:
+        """Inputs are locked where ``values`` have them, those of which nobody says it where they were found beside what was ``fitted``, for a while."""
         every = self.standing() | dict(values)
-        return self.locked_places.tried(self.cages.effects(every), every)
+        effects, known = self.cages.effects(every), self.cages.effects(self.standing() | dict(fitted))
+        with self.locked_places.tried(effects, every), self.unstated_places.tried(effects, known):
+            yield
 
     def placed(self, record: Record, asked: Asked) -> Record:
         """The record, as if locked where that is with the effects that are on."""

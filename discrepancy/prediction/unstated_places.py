@@ -8,7 +8,8 @@ A search says which turn of the cranks it is, and about where; how far from ther
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -104,6 +105,20 @@ class UnstatedPlaces:
             there = values.get(name, 0.0) + far
             other[name] = there - self.period if there > 0.5 * self.period else there
         return other
+
+    @contextmanager
+    def tried(self, effects: Effects, known: Effects) -> Iterator[None]:
+        """The places of ``known`` effects for these, for a while."""
+        before = dict(self.found)
+        self.found[effects] = with_most(self.found, known, {})
+        try:
+            yield
+        finally:
+            self.found = before
+
+    def other(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The parameters of loops that are locked half a turn of the cranks from where ``values`` have them."""
+        return {name: values.get(name, 0.0) + 0.5 * self.period for name in map(from_there, self.loops)}
 
     def closer(self, loop: Record, predicted: LoopAt, centre: float) -> float:
         """The best place about another, within a step of the search."""
