@@ -31,7 +31,7 @@ def as_stiff_as(given: Given, stiffness: float) -> Completion:
     found = compliance_of(reducer_at(by_rules, {}, "new"), number.value, stiffness)
     completion = complete(replace(given, known={**given.known, FREE: found}))
     source = f"{AS_STIFF}, {stiffness:g} N.m/arcmin"
-    doubts = stiffness_doubt(f"{stiffness:g} N.m/arcmin", found, number.low, number.high, number.unit)
+    doubts = stiffness_doubt(f"{stiffness:g} N.m/arcmin", found, number.low, number.high, number.unit, given.diameter)
     numbers = completion.numbers | {FREE: replace(completion.numbers[FREE], source=source)}
     return replace(completion, numbers=numbers, doubts=[*completion.doubts, *doubts])
 

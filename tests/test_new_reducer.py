@@ -16,9 +16,10 @@ from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
-from reducers.completion.given import SUN, Given, usual_pins
+from reducers.completion.given import SUN, Given, given_with, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
+from studies.catalogue_stiffness import as_stiff_as
 from studies.completed_ranges import Influence, influences, what_matters
 from studies.hysteresis import hysteresis
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
@@ -352,6 +353,12 @@ def test_a_sun_with_few_teeth_is_doubted_with_the_reason():
     assert "undercut without profile shift (2 / sin^2 20 deg = 17.1, standard basic rack of ISO 53); so few need 0.53 modules" in said
     # Ten teeth are made with a shift of 0.42.
     assert not sun_doubt(9) and not sun_doubt(17)
+
+
+def test_a_doubtful_stiffness_asks_for_the_diameter_where_none_is_given():
+    task = {"ratio": 153, "pins": None, "rated": 784.0, "cranks": 3}
+    assert "give --diameter if the catalogue has it, or look at the unit" in as_stiff_as(given_with(**task), 212.0).doubts[-1]
+    assert not any("torsional stiffness" in text for text in as_stiff_as(given_with(**task, diameter=239.0), 212.0).doubts)
 
 
 def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monkeypatch):

@@ -481,6 +481,25 @@ def test_numbers_given_are_counted_as_the_command_line_does(tmp_path):
     assert page["finding"].startswith("5 numbers given, "), page["finding"]
 
 
+def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stands_beside_it(tmp_path):
+    """The command's number, by the command's units; without one the form says that nobody asked for it."""
+    from workbench.reducers import completed
+
+    folder, asked = opened(tmp_path), {"ratio": "153", "rated": "0,784kNm", "cranks": "3"}
+
+    def stiffness(found):
+        return next((c["value"], c["note"]) for c in found["page"]["cards"] if c["label"] == "torsional stiffness")
+
+    by_rules = completed(folder, asked)
+    assert float(stiffness(by_rules)[0]) > 300.0 and stiffness(by_rules)[1].startswith("not given") and "--stiffness" not in by_rules["command"]
+    found = completed(folder, {**asked, "stiffness": "212Nm/arcmin"})
+    assert float(stiffness(found)[0]) == pytest.approx(212.0, rel=2e-3) and stiffness(found)[1] == "212 asked for"
+    assert "--rated 784 " in found["command"] and "--stiffness 212 " in found["command"] and "support_compliance" not in found["command"]
+    assert any("give diameter if the catalogue has it" in text for text in found["page"]["warnings"])
+    with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
+        completed(folder, {**asked, "stiffness": "212kg"})
+
+
 def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
     from workbench.reducers import completed
 

@@ -4,7 +4,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from discrepancy.campaign.amount import amount
 from fmu_src.faults import InputFault
+from orchestrator.settings import NUMBER
 
 if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
@@ -20,6 +22,13 @@ def number(value: Any, what: str) -> float:
     if not math.isfinite(found):
         raise InputFault(f"{what}: a finite number is needed")
     return found
+
+
+def in_unit(value: Any, unit: str, what: str) -> float:
+    """A number in ``unit``, alone or with a unit of its own as options of commands take it: 784, 0.784kNm."""
+    text = str(value).strip().replace(",", ".")
+    found = NUMBER.match(text)
+    return amount(text, unit or "1", what) if found and found[2] else number(value, what)
 
 
 def whole(value: Any, what: str) -> int:

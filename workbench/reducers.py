@@ -5,22 +5,26 @@ import re
 import shlex
 import tomllib
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from discrepancy.model_file import load_model
 from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.units import conversion
+from pages.content import Card
 from pages.words import number
 from reducers.checking import check
-from reducers.completion.command import usual_name, words_of
+from reducers.completion.command import typed, usual_name, words_of
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import text_of
 from reducers.completion.given import Given, given_with
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
+from studies.catalogue_stiffness import as_stiff_as
+from studies.hysteresis import hysteresis
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
@@ -32,6 +36,7 @@ ASKED = (
     ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", False), ("rated", "rated torque", "N·m", True),
     ("diameter", "outer diameter of the housing", "mm", False), ("speed", "rated output speed", "rpm", False), ("cranks", "cranks", "", False),
     ("rollers", "rollers of a crank bearing", "", False), ("lost_motion", "lost motion of the catalogue", "arcmin", False),
+    ("stiffness", "torsional stiffness of the catalogue", "N·m/arcmin", False),
 )  # fmt: skip
 WHOLE = ("pins", "cranks", "rollers")
 
@@ -98,7 +103,8 @@ def findings(reducer: Reducer) -> list[str]:
 def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
-        completion = complete(given_of(given))
+        known, stiffness = given_of(given)
+        completion = complete(known) if stiffness is None else as_stiff_as(known, stiffness)
         name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
             raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")
@@ -113,24 +119,42 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
             raise InputFault(f"{place.name} is in the folder already and is not overwritten; give another name")
         write_text(place, text)
         saved = place.name
-    page = page_data(page_of(completion, reducer, []))
+    page = page_of(completion, reducer, [])
+    page = replace(page, cards=[*page.cards, *tested(reducer, stiffness, known.lost_motion)], warnings=[*map(plainly, page.warnings)])
+    words = [*words_of(known), *(["--stiffness", typed(stiffness)] if stiffness is not None else []), "--name", name]
     told = {"name": name, "saved": saved, "findings": findings(reducer)}
-    return {"page": page, "numbers": rows_of(completion), **told, "command": shlex.join([*words_of(completion.given), "--name", name])}
+    return {"page": page_data(page), "numbers": rows_of(completion), **told, "command": shlex.join(words)}
 
 
-def given_of(given: Mapping[str, Any]) -> Given:
+def tested(reducer: Reducer, stiffness: float | None, lost_motion: float) -> list[Card]:
+    """What the stiffness test reads of it, beside what was asked for: nobody keeps a stiffness that was never looked at."""
+    asked = "not given: made by rules alone, hold it against the catalogue" if stiffness is None else f"{stiffness:.4g} asked for"
+    try:
+        found = hysteresis(reducer, [])
+    except RunFault as fault:
+        return [Card("torsional stiffness", "unknown", f"{asked}; the test fails: {fault}")]
+    return [
+        Card("torsional stiffness", f"{found.stiffness_Nm_per_arcmin:.4g}", asked, unit="N·m/arcmin"),
+        Card("lost motion", f"{found.lost_motion_arcmin:.3g}", f"{lost_motion:g} of the catalogue bound the flanks' gaps alone", unit="arcmin"),
+    ]
+
+
+def given_of(given: Mapping[str, Any]) -> tuple[Given, float | None]:
+    """What is given, and the catalogue's torsional stiffness [N m/arcmin]."""
     values: dict[str, Any] = {}
-    for name, label, _, needed in ASKED:
+    for name, label, unit, needed in ASKED:
         text = str(given.get(name) or "").strip()
         if not text:
             if needed:
                 raise InputFault(f"{label} is needed")
             continue
-        values[name] = (form.whole if name in WHOLE else form.number)(text, label)
+        values[name] = form.whole(text, label) if name in WHOLE else form.in_unit(text, unit, label)
+    stiffness = values.pop("stiffness", None)
     known = given.get("known") or {}
     if not isinstance(known, dict):
         raise InputFault("known numbers are a table of names and values")
-    return given_with(**{"pins": None} | values, known=known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip()))
+    measured = known_numbers(f"{name}={value}" for name, value in known.items() if str(value).strip())
+    return given_with(**{"pins": None} | values, known=measured), stiffness
 
 
 def rows_of(completion: Completion) -> list[dict[str, Any]]:

@@ -107,7 +107,7 @@ def stiff_again(given: Given, numbers: Mapping[str, float], sources: Mapping[str
         by_rules = complete(replace(given, known={name: value for name, value in given.known.items() if name != FREE})).numbers[FREE]
     except InputFault:
         return []
-    return stiffness_doubt(sources[FREE].removeprefix(f"{AS_STIFF}, "), numbers[FREE], by_rules.low, by_rules.high, by_rules.unit)
+    return stiffness_doubt(sources[FREE].removeprefix(f"{AS_STIFF}, "), numbers[FREE], by_rules.low, by_rules.high, by_rules.unit, given.diameter)
 
 
 def command(reducer: Reducer, measured: Collection[str] = ()) -> str:

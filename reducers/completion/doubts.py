@@ -62,11 +62,9 @@ def sun_doubt(teeth: float) -> list[str]:
     ]  # fmt: skip
 
 
-def stiffness_doubt(stiffness: str, found: float, low: float, high: float, unit: str) -> list[str]:
-    """That the catalogue's torsional stiffness, in words, asks for supports that no rule makes, if so."""
+def stiffness_doubt(stiffness: str, found: float, low: float, high: float, unit: str, diameter: float | None) -> list[str]:
+    """That the catalogue's torsional stiffness, in words, asks for supports that no rule makes, if so; all other springs follow the ring's size."""
     if low <= found <= high:
         return []
-    return [
-        f"a torsional stiffness of {stiffness} asks for {FREE} = {found:.3g} {unit}, where rules give {low:.3g} to"
-        f" {high:.3g}: look at its unit, and at what else was given"
-    ]  # fmt: skip
+    advice = "give --diameter if the catalogue has it, or look at the unit" if diameter is None else "look at its unit, and at what else was given"
+    return [f"a torsional stiffness of {stiffness} asks for {FREE} = {found:.3g} {unit}, where rules give {low:.3g} to {high:.3g}: {advice}"]
