@@ -642,6 +642,24 @@ def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, 
     assert asked[0]["answer"] is None and asked[0]["doctor"] == "what was known"
 
 
+def test_the_command_printed_below_the_units_builds_them(tmp_path, monkeypatch):
+    """Of a model file it named ``extend``, which has nothing to add and builds nothing."""
+    from studies import building
+    from workbench import steps
+
+    folder = opened(tmp_path / "my bench")
+    text = '[model]\nname = "better"\nreducer = "RV20E-121"\n[settings]\n\"bearing.clearance\" = "7 um"\n'
+    (folder.root / "model.toml").write_text(text, encoding="utf-8")
+    asked = []
+    monkeypatch.setattr(building, "build_units", lambda reducer, place, *wanted: asked.append((reducer, place)) or ([], []))
+    place = jobs.place_of(folder, "build")
+    place.mkdir(parents=True)
+    steps.build_step(folder, {"model": "model.toml"}, 1, place)
+    command = folder.recall("jobs/build/result")["command"]
+    assert main(shlex.split(command)[1:]) == 0
+    assert asked[0] == asked[1] and pytest.approx(7e-6) in asked[0][0].starts.values()
+
+
 def moved(angle, by):
     import numpy as np
 

@@ -237,16 +237,16 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
 
 
 def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    from discrepancy.extend import build_units
-    from discrepancy.model_file import load_model
+    from discrepancy.named_reducer import named_reducer
+    from studies import building
 
     with task("building the FMUs"):
-        built = build_units(load_model(folder.model(given)), folder.root / "fmus")
-    files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in built if path.is_relative_to(folder.root)]
+        built, packages = building.build_units(named_reducer(folder.model(given)), folder.root / "fmus")
+    paths = [Path(entry["fmu"]) for entry in built] + packages
+    files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in paths if path.is_relative_to(folder.root)]
     name = str(given["model"])
-    how = (f"rvwear extend {shlex.quote(str(folder.root / name))} {shlex.quote(str(folder.root))} --fmus" if name.endswith(".toml")
-           else f"rvwear build --reducer {shlex.quote(name)} --output")  # fmt: skip
-    write_json(place / "result.json", {"files": files, "model": name, "command": f"{how} {shlex.quote(str(folder.root / 'fmus'))}"})
+    reducer, output = (shlex.quote(str(path)) for path in (folder.model(given), folder.root / "fmus"))
+    write_json(place / "result.json", {"files": files, "model": name, "command": f"rvwear build --reducer {reducer} --output {output}"})
     return False
 
 

@@ -7,6 +7,8 @@ import { offered, refusal } from "./refused.js";
 // Where it is told what is being done, once it is.
 const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`, "aria-live": "off" });
 
+const NOTHING = "Nothing is to be added: the model is adequate";
+
 export function nextPart(bag) {
   const { answer, next, context } = bag;
   const busy = context.busy();
@@ -78,8 +80,9 @@ export function addPart(bag) {
   let anyway = false;
   // What a former model lacks may be in this one already.
   const busy = context.busy() || (old && `${old} Diagnose that first.`);
-  const options = offered(answer);
-  if (!options.length) return null;
+  const options = offered(answer),
+    adequate = answer.verdict === "none";
+  if (!options.length) return adequate ? h("section", {}, h("h2", {}, NOTHING)) : null;
   const add = (name) => context.start("extend", { model: answer.model, effects: name.split(" + "), anyway });
   let choice = options[0];
   const keep = h("input", {
@@ -88,44 +91,47 @@ export function addPart(bag) {
       anyway = keep.checked;
     },
   });
+  const offer = [
+    h(
+      "p",
+      { class: "quiet small" },
+      "It is fitted to the runs that are not held out and judged on those that are; it stays only if their error falls. The model is model.toml in the folder.",
+    ),
+    h(
+      "div",
+      { class: "row" },
+      options.length > 1
+        ? choose(
+            options.map((o) => [o, effectName(o)]),
+            choice,
+            (v) => {
+              choice = v;
+            },
+          )
+        : h("b", {}, effectName(choice)),
+      h(
+        "button",
+        {
+          type: "button",
+          class: adequate || (extension && !extension.kept) ? "" : "main",
+          id: "extend",
+          disabled: !!busy,
+          title: busy || undefined,
+          onclick: () => add(choice),
+        },
+        "Add it",
+      ),
+      h("label", { class: "inline small" }, keep, "keep it even if it does not help"),
+    ),
+  ];
   return h(
     "section",
     {},
-    h("h2", {}, "Add it to the model"),
+    h("h2", {}, adequate ? NOTHING : "Add it to the model"),
     h(
       "div",
       { class: "panel" },
-      h(
-        "p",
-        { class: "quiet small" },
-        "It is fitted to the runs that are not held out and judged on those that are; it stays only if their error falls. The model is model.toml in the folder.",
-      ),
-      h(
-        "div",
-        { class: "row" },
-        options.length > 1
-          ? choose(
-              options.map((o) => [o, effectName(o)]),
-              choice,
-              (v) => {
-                choice = v;
-              },
-            )
-          : h("b", {}, effectName(choice)),
-        h(
-          "button",
-          {
-            type: "button",
-            class: extension && !extension.kept ? "" : "main",
-            id: "extend",
-            disabled: !!busy,
-            title: busy || undefined,
-            onclick: () => add(choice),
-          },
-          "Add it",
-        ),
-        h("label", { class: "inline small" }, keep, "keep it even if it does not help"),
-      ),
+      adequate ? h("details", { id: "anyway" }, h("summary", {}, "Add an effect anyway"), offer) : offer,
       progressOf("extend"),
       extension
         ? [
