@@ -380,6 +380,21 @@ def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
     assert {"Try crank eccentricity alone", "Try raceway wear (inner) alone", "Back to the answer"} <= set(refused["buttons"])
 
 
+def test_nothing_is_to_be_added_to_an_adequate_model(bench):
+    """What was turned down stood there with a button to add it."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { addPart } = await import('./static/better.js');
+      return [['none', []], ['none', ['drag']], ['unknown', ['drag']]].map(([verdict, names]) => {
+        const answer = { model: 'RV20E-121', verdict, effects: [], base_off: [], confusable: [], rejected: names.map((name) => ({ name })) };
+        const part = addPart({ answer, extension: null, context: { busy: () => '' }, old: '' }), add = part.querySelector('#extend');
+        return [part.querySelector('h2').textContent, add && [add.className, !!add.closest('details:not([open])')]];
+      });
+    }""")
+    nothing = "Nothing is to be added: the model is adequate"
+    assert told == [[nothing, None], [nothing, ["", True]], ["Add it to the model", ["main", False]]]
+
+
 def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
     bench.page.goto(bench.address)
     empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))
@@ -621,6 +636,26 @@ def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
         again()
         page.locator("#followed", has_text="thermal expansion").wait_for(timeout=60_000)
         assert page.locator("[data-parameter=thermal_expansion]").input_value() == tried
+
+
+def test_under_try_a_model_s_own_effects_stay_and_it_says_so(bench):
+    """All off was taken for the reducer without the effect, and called base model."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    text = '[model]\nname = "better"\nreducer = "RV20E-121-rigid"\n[effects.thermal_expansion]\nexpansion = "2e-6 1/K"\n'
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    page = bench.page
+    bench.view("try")
+    page.select_option("#model", "model.toml")
+    page.locator("button", has_text="Back to the model as it is").wait_for()
+    page.locator("#followed", has_text="the model as it is, its own effects on (thermal expansion)").wait_for()
+    page.locator("summary", has_text="thermal expansion").first.click()
+    page.locator("button", has_text="Without it").first.click()
+    page.locator("#followed", has_not_text="its own effects on").wait_for()
+    page.locator("button", has_text="Back to the model as it is").click()
+    page.locator("#followed", has_text="its own effects on").wait_for()
+    page.select_option("#model", "RV20E-121-rigid")
+    page.locator("button", has_text="All off").wait_for()
+    page.locator("#followed", has_text="base model").wait_for()
 
 
 def test_a_search_under_try_opens_what_is_called_so_alone(bench):

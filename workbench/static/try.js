@@ -124,8 +124,9 @@ export function show(root, context) {
               drawList();
               follow();
             },
+            title: carried().length ? "takes back what is tried; the model file's own effects stay" : undefined,
           },
-          "All off",
+          carried().length ? "Back to the model as it is" : "All off",
         ),
         h(
           "button",
@@ -174,7 +175,9 @@ export function show(root, context) {
   const summary = () =>
     Object.entries(values)
       .map(([k, v]) => `${words(k)} ${shown(k, v)}`)
-      .join(", ") || "base model";
+      .join(", ") || (carried().length ? `the model as it is, its own effects on (${carried().join(", ")})` : "base model");
+  // Effects that the model file has already: they stay when all is off.
+  const carried = () => data.effects.filter((e) => e.carried).map((e) => e.title);
   const parameters = () => [...data.effects, ...data.numbers].flatMap((e) => e.parameters);
   const shown = (name, value) => {
     const p = parameters().find((q) => q.name === name);
