@@ -645,6 +645,7 @@ def test_under_try_a_model_s_own_effects_stay_and_it_says_so(bench):
     (bench.folder / "model.toml").write_text(text, encoding="utf-8")
     page = bench.page
     bench.view("try")
+    page.locator("button", has_text="All off").wait_for()
     page.select_option("#model", "model.toml")
     page.locator("button", has_text="Back to the model as it is").wait_for()
     page.locator("#followed", has_text="the model as it is, its own effects on (thermal expansion)").wait_for()

@@ -59,9 +59,10 @@ export function show(root, context) {
       return;
     }
     clear(faults, h("p", { class: "quiet" }, "Making the model ready…"));
+    const asked = model;
     const found = await context.act(post("try", { model }), faults);
-    // Who went on wants no curve of it.
-    if (!found || !root.isConnected) return;
+    // Who went on wants no curve of it, nor who has chosen another model meanwhile.
+    if (!found || !root.isConnected || model !== asked) return;
     clear(faults);
     data = found;
     if (!Object.keys(values).length) values = remembered();
