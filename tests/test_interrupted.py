@@ -14,11 +14,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening import screen as screening
-from discrepancy.inference.verdict import ONE, STOPPED
+from discrepancy.inference.verdict import ONE, STOPPED, Settings
 from discrepancy.model_file import load_model
+from discrepancy.remembered import place_of
 from fmu_src.progress import told_to
 from fmu_src.source_hash import ROOT
 from fmu_src.threads import Threads
@@ -145,6 +147,8 @@ def campaign_folder(folder):
 @pytest.mark.skipif(sys.platform == "win32", reason="signals to other processes are sent otherwise there")
 def test_control_c_at_the_command_leaves_an_answer_and_the_command_goes_on(tmp_path):
     folder = campaign_folder(tmp_path / "campaign")
+    # The same was measured in the folder of an earlier run of this test.
+    place_of(load_model("RV20E-121"), load_campaign(folder), Settings()).unlink(missing_ok=True)
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = ["diagnose", "RV20E-121", str(folder), "--json"]
     with subprocess.Popen([sys.executable, "-c", WAITING, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) as running:
