@@ -15,6 +15,17 @@ def with_most(found: Mapping[Effects, Found], effects: Effects, without: Found) 
     return found[max(known, key=len)] if known else without
 
 
+@contextmanager
+def restored(found: dict[Effects, Found]) -> Iterator[None]:
+    """What is put there in this block is gone behind it."""
+    before = dict(found)
+    try:
+        yield
+    finally:
+        found.clear()
+        found.update(before)
+
+
 class ByEffects:
     """Numbers by name that follow the values of a fit, and stay where these move them by less than ``near``; ``without``: those of no fit."""
 
@@ -45,9 +56,6 @@ class ByEffects:
     @contextmanager
     def tried(self, effects: Effects, values: Mapping[str, float]) -> Iterator[None]:
         """Those of ``values`` for these effects, for a while."""
-        before = dict(self.found)
-        self.place(effects, values)
-        try:
+        with restored(self.found):
+            self.place(effects, values)
             yield
-        finally:
-            self.found = before

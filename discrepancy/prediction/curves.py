@@ -63,12 +63,12 @@ class Curve(Protocol[Nodes]):
         """The signal at nodes."""
         ...
 
-    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
-        """The signal at every sample, or so far ahead of each."""
+    def directly(self, values: Values) -> Floats:
+        """The signal at every sample."""
         ...
 
-    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
-        """What the record shows of a signal that is known ``at`` its samples, or so far ahead of each."""
+    def seen(self, at: Callable[[Floats | float], Floats]) -> Floats:
+        """What the record shows of a signal that is known ``at`` any distance ahead of its samples."""
         ...
 
 
@@ -105,21 +105,20 @@ class OverAngle:
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
-    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
+    def directly(self, values: Values) -> Floats:
         angles, samples = self.support(None, values)
-        found = samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
-        return found if ahead is None else further(self.places(values), found, ahead)
+        return samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
 
-    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
+    def seen(self, at: Callable[[Floats | float], Floats]) -> Floats:
         """An encoder on the output turns with the error itself: a sample is shown at the input's angle over the ratio and the error there.  Orders of
         a large one show at twice themselves so (an order 80 of 20 arcsec: 0.08 arcsec of order 160)."""
-        found = at(None)
-        if not self.record.of_output or self.name != "transmission_error":
+        found = at(0.0)
+        if not self.record.of_output or self.name != "transmission_error" or len(found) < LEAST_SAMPLES:
             return found
-        behind = found - found.mean()
-        angles, place = as_turned(self.bench, self.record, {})
-        slopes = np.abs(np.diff(found[np.argsort(place)])) / np.maximum(np.abs(np.diff(angles)), 1e-12)
-        if len(found) < LEAST_SAMPLES or np.abs(np.diff(angles)).min() <= 0.0 or np.abs(behind).max() * np.median(slopes) < self.bench.allowed(self.record):
+        angles = self.places({})
+        order = np.argsort(angles, kind="stable")
+        steps, behind = np.diff(angles[order]), found - found.mean()
+        if steps.min() <= 0.0 or np.abs(behind).max() * np.median(np.abs(np.diff(found[order])) / steps) < self.bench.allowed(self.record):
             return found
         # Twice is enough: what is left is the third power of it.
         return at(-behind)
@@ -193,11 +192,11 @@ class OverTorque:
     def run(self, values: Values, nodes: TorqueNodes) -> Floats:
         return self.along(values, nodes.torques)
 
-    def directly(self, values: Values, ahead: Floats | None = None) -> Floats:
+    def directly(self, values: Values) -> Floats:
         return self.along(values, self.places(values))
 
-    def seen(self, at: Callable[[Floats | None], Floats]) -> Floats:
-        return at(None)
+    def seen(self, at: Callable[[Floats | float], Floats]) -> Floats:
+        return at(0.0)
 
     def along(self, values: Values, torques: Floats) -> Floats:
         path, places = self.way(values, torques)
@@ -208,30 +207,29 @@ class OverTorque:
         return way(self.bench, values, torques, TORQUE_STEP if self.is_exact else self.bench.torque_step, self.record.closed)
 
 
-def moved(angles: Floats, series: Floats, by: float) -> Floats:
-    """What a ``series`` at ``angles`` [rad] is ``by`` [rad] further on."""
-    return SplineNodes(angles).samples(series, angles + by) if by else series
-
-
-def further(angles: Floats, series: Floats, ahead: Floats) -> Floats:
-    """What a ``series`` of samples at ``angles`` [rad], in any order, is ``ahead`` (n,) of each."""
+def moved(angles: Floats, series: Floats, by: Floats | float) -> Floats:
+    """What a ``series`` at ``angles`` [rad], in any order, is ``by`` [rad], one distance or each its own, further on."""
+    if not np.any(by):
+        return series
     order = np.argsort(angles, kind="stable")
-    return SplineNodes(angles[order]).samples(series[order], angles + ahead)
+    return SplineNodes(angles[order]).samples(series[order], angles + by)
 
 
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
     fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
     changed, exact = bool(curve.bench.relevant(values, True)), curve.exact()
+    places = curve.places(values)
     if coarse is None or (fine is None and not changed):
-        return curve.seen(lambda ahead: exact.directly(values, ahead))
+        direct = exact.directly(values)
+        return curve.seen(lambda ahead: moved(places, direct, ahead))
     change = curve.run(values, coarse) - curve.run({}, coarse) if changed else None
+    # The base model's is had but once at every sample.
+    base = exact.directly(curve.unchanged(values)) if fine is None else exact.run({}, fine)
 
-    def at(ahead: Floats | None) -> Floats:
-        places = curve.places(values) if ahead is None else curve.places(values) + ahead
-        # The base model's is had but once at every sample.
-        found = exact.directly(curve.unchanged(values), ahead) if fine is None else fine.samples(exact.run({}, fine), places)
-        return found if change is None else found + coarse.samples(change, places)
+    def at(ahead: Floats | float) -> Floats:
+        found = moved(places, base, ahead) if fine is None else fine.samples(base, places + ahead)
+        return found if change is None else found + coarse.samples(change, places + ahead)
 
     return curve.seen(at)
 

@@ -186,7 +186,7 @@ class PhysicalModel:
         asked = self.asked(values)
         own = self.own(record, asked)
         found = self.observed(record, own, None, False) + self.cages.found(record, own)
-        left = record.values - (self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found)
+        left = record.values - self.chained(found, record, asked)
         centred: Floats = left - left.mean()
         return centred
 
@@ -288,8 +288,7 @@ class PhysicalModel:
         predicted = with_error(predicted, record, asked.values)
         if (error := asked.values.get(LOOPS, 0.0)) and is_loop(record):
             predicted = predicted + error * loop_error(self.bench, record)
-        if asked.acting:
-            predicted = self.chain.changed(predicted, record, asked.values, asked.acting, self.sizes.get(record.quantity) or size_of(predicted))
+        predicted = self.chained(predicted, record, asked)
         ripple = self.cages.ripple(record, asked.values)
         if ripple is not None:
             predicted = predicted + ripple
@@ -299,6 +298,12 @@ class PhysicalModel:
             # The mean of the prediction is that of the measurement.
             predicted = predicted - float(predicted.mean()) + float(bridged(record).values.mean())
         return predicted
+
+    def chained(self, shown: Floats, record: Record, asked: Asked) -> Floats:
+        """What the measuring chain makes of what the reducer shows, where effects act on it."""
+        if not asked.acting:
+            return shown
+        return self.chain.changed(shown, record, asked.values, asked.acting, self.sizes.get(record.quantity) or size_of(shown))
 
     def observed(self, record: Record, own: Values, beside: Values | None, rough: bool, changes: Changes = CHANGES) -> Floats:
         """What the reducer shows, before the measuring chain: once for all runs that repeat each other."""
@@ -326,7 +331,7 @@ class PhysicalModel:
         """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the record has it, else as the mean over positions."""
         asked, record = self.asked(values), record if place is None else locked(record, place)
         found = OBSERVED[record.quantity](self.search_bench, record, self.own(record, asked))
-        return self.chain.changed(found, record, asked.values, asked.acting, self.sizes[record.quantity]) if asked.acting else found
+        return self.chained(found, record, asked)
 
     def error_with(self, values: Mapping[str, float], effects: Effects, record: Record, which: bool) -> Floats:
         """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""

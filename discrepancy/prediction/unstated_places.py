@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.held_names import LOCKED_AT
-from discrepancy.prediction.by_effects import Effects, with_most
+from discrepancy.prediction.by_effects import Effects, restored, with_most
 from discrepancy.problem import ERROR, Parameter, Record, is_unplaced
 from fmu_src.arrays import Floats
 
@@ -109,12 +109,9 @@ class UnstatedPlaces:
     @contextmanager
     def tried(self, effects: Effects, known: Effects) -> Iterator[None]:
         """The places of ``known`` effects for these, for a while."""
-        before = dict(self.found)
-        self.found[effects] = with_most(self.found, known, {})
-        try:
+        with restored(self.found):
+            self.found[effects] = with_most(self.found, known, {})
             yield
-        finally:
-            self.found = before
 
     def other(self, values: Mapping[str, float]) -> dict[str, float]:
         """The parameters of loops that are locked half a turn of the cranks from where ``values`` have them."""
