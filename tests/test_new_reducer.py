@@ -53,10 +53,23 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     said = " ".join(capsys.readouterr().out.split())
     assert "planets of 60 and a sun of 23 teeth with 40 pins make 105.348, which the file has" in said
     assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, pin.radius 3; of the file's 53 numbers these say 5, 17 come by published rules, 31 are" in said
-    assert "a lost motion of 1 arcmin bounds the gaps of the flanks alone (0 to 0.5 arcmin each; 0.25 and none are taken)" in said
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
+
+
+def test_lost_motion_is_held_against_the_catalogue_s_and_the_gap_is_said_that_makes_it(tmp_path, capsys):
+    """What is printed for --known makes the catalogue's lost motion when it is given; where no gap does, that is said."""
+    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--stiffness", "392", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
+    assert main(catalogue) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "a lost motion of 1.09 arcmin (the catalogue's: 1): a gap of the flanks of" in said
+    [known] = re.findall(r"--known (disc.equidistant_modification=[0-9.]+um) makes it 1 arcmin", said)
+    assert main([*catalogue, "--known", known, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["tested"]
+    assert found["lost_motion"] == pytest.approx(1.0, abs=5e-3) and found["stiffness"] == pytest.approx(392.0, rel=5e-3)
+    assert main([*catalogue, "--lost-motion", "0.3arcmin"]) == 0
+    assert "without a gap it is" in " ".join(capsys.readouterr().out.split())
 
 
 def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from reducers.completion.complete import Completion
     from reducers.completion.given import Given
     from reducers.reducer import Reducer
+    from studies.catalogue_lost_motion import Tested
     from studies.completed_ranges import Influence
 
 
@@ -79,6 +80,8 @@ def run_new(options: argparse.Namespace) -> int:
         reducer = checked(text, target)
     write_text(target, text)
     only_file(target)
+    with task("testing its stiffness"):
+        test = tested_of(completion, reducer)
     found = sensitivity(completion) if options.sensitivity else []
     if page is not None:
         write_page(completion, reducer, found, page)
@@ -87,14 +90,25 @@ def run_new(options: argparse.Namespace) -> int:
     if options.json:
         compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}
         moved = {"sensitivity": [vars(one) | {"share": one.share} for one in found]} if options.sensitivity else {}
-        json_text({"file": str(target)} | as_json(completion) | compared | moved)
+        json_text({"file": str(target)} | as_json(completion) | {"tested": None if test is None else vars(test)} | compared | moved)
     else:
-        show(completion, name, target)
+        show(completion, name, target, test)
         if options.against:
             show_against(rows, name, options.against)
         if options.sensitivity:
             show_influences(completion, found)
     return 0
+
+
+def tested_of(completion: "Completion", reducer: "Reducer") -> "Tested | None":
+    """What the stiffness test reads; None where the reducer does not stand it, which its check says."""
+    from fmu_src.faults import RunFault
+    from studies.catalogue_lost_motion import GAP, tested
+
+    try:
+        return tested(reducer, completion.numbers[GAP].value, completion.given.lost_motion)
+    except RunFault:
+        return None
 
 
 def sensitivity(completion: "Completion") -> "list[Influence]":

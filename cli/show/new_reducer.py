@@ -9,15 +9,17 @@ from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
 from reducers.completion.doubts import FREE
 from reducers.completion.known import FROM_OPTIONS
+from studies.catalogue_lost_motion import GAP, Tested
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
 RULE = 19
-GAP = "disc.equidistant_modification"
+# A lost motion this share off the catalogue's is that.
+SAME = 0.02
 
 
-def show(completion: Completion, name: str, file: Path) -> None:
-    """Numbers with ranges and the beginning of their rules, doubts, and a sum."""
+def show(completion: Completion, name: str, file: Path, tested: Tested | None) -> None:
+    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it."""
     table = dense(f"{name}: completed by design rules")
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
@@ -37,13 +39,8 @@ def show(completion: Completion, name: str, file: Path) -> None:
         f"given: {completion.given.in_words}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
         f" {assumed} are assumed; each stands in the file with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
     )
-    if not completion.numbers[GAP].is_given:
-        told = completion.given.lost_motion
-        console().print(
-            f"a lost motion of {told:g} arcmin bounds the gaps of the flanks alone (0 to {0.5 * told:g} arcmin each; {0.25 * told:g} and none are taken):"
-            f" clearance of the bearings, play of the first stage and friction come on top."
-            f" rvwear hysteresis --reducer {shlex.quote(str(file))} says the whole, --known {GAP}=... sets the gap"
-        )
+    if tested is not None:
+        console().print(in_words(tested, completion))
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 
@@ -64,6 +61,18 @@ def show_against(rows: list[Row], name: str, full: str) -> None:
         f"{sum(row.inside for row in known)} of {len(known)} numbers that {full} has from its source, and that come by a published rule, lie inside;"
         f" {sum(row.inside for row in rows)} of {len(rows)} of all"
     )
+
+
+def in_words(tested: Tested, completion: Completion) -> str:
+    """What the stiffness test reads, and of a lost motion that is not the catalogue's where it comes from and what would make it that."""
+    told, gap = completion.given.lost_motion, completion.numbers[GAP]
+    found = f"the stiffness test reads {tested.stiffness:.4g} N.m/arcmin and a lost motion of {tested.lost_motion:.3g} arcmin (the catalogue's: {told:g})"
+    if gap.is_given or abs(tested.lost_motion - told) <= SAME * told:
+        return found
+    found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
+    if tested.gap is None:
+        return found + f"without a gap it is {tested.least:.3g} arcmin, --known bearing.clearance=... sets the clearance"
+    return found + f"--known {GAP}={tested.gap:g}um makes it {told:g} arcmin"
 
 
 def show_influences(completion: Completion, found: list[Influence]) -> None:

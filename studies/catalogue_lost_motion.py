@@ -1,0 +1,47 @@
+"""What the stiffness test reads of a completed reducer, and the gap of the flanks that would make its lost motion the catalogue's."""
+
+from dataclasses import dataclass
+
+from orchestrator.settings import parse_setting
+from reducers.reducer import Reducer
+from studies.hysteresis import Hysteresis, hysteresis
+
+GAP = "disc.equidistant_modification"
+# As near as a catalogue's figure is to be met, as a share of it, and steps until then: lost motion grows evenly with the gap.
+NEAR, MOST_STEPS = 2e-3, 6
+# Of the gap, between which its slope is taken [um].
+FIRST = 1.0
+
+
+@dataclass(frozen=True)
+class Tested:
+    """Lost motion [arcmin] and torsional stiffness [N m/arcmin] of a completed reducer; ``gap`` [um] makes the former the catalogue's,
+    None: no gap does, with none it is ``least`` [arcmin]."""
+
+    lost_motion: float
+    stiffness: float
+    gap: float | None
+    least: float
+
+
+def tested(reducer: Reducer, gap: float, lost_motion: float) -> Tested:
+    """The test of a reducer whose flanks have the ``gap`` [um], held against the catalogue's ``lost_motion`` [arcmin]; RunFault where it fails."""
+    as_it_is, without = test(reducer, gap), test(reducer, 0.0)
+    found = as_it_is.lost_motion_arcmin, as_it_is.stiffness_Nm_per_arcmin
+    least = without.lost_motion_arcmin
+    if least > lost_motion:
+        return Tested(*found, None, least)
+    here, there = (0.0, least), (gap, found[0]) if gap > 0.0 else (FIRST, test(reducer, FIRST).lost_motion_arcmin)
+    for _ in range(MOST_STEPS):
+        if abs(there[1] - lost_motion) <= NEAR * lost_motion:
+            return Tested(*found, there[0], least)
+        slope = (there[1] - here[1]) / (there[0] - here[0])
+        if slope <= 0.0:
+            break
+        wanted = max(float(f"{there[0] + (lost_motion - there[1]) / slope:.3g}"), 0.0)
+        here, there = there, (wanted, test(reducer, wanted).lost_motion_arcmin)
+    return Tested(*found, None, least)
+
+
+def test(reducer: Reducer, gap: float) -> Hysteresis:
+    return hysteresis(reducer, [parse_setting(f"{GAP}={gap!r}um", [reducer.plant, reducer.wear])])
