@@ -4,7 +4,7 @@ The statistics speaks of candidates; several can be variants of one effect (a pi
 centre, or oval).  Here they are put together under the effect's name.
 """
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -184,6 +184,16 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
     if verdict == SEVERAL:
         return f"one effect in several forms, each significant beside the others: {forms}"
     return f"one effect explains the misfit; which of its forms this campaign cannot tell, for they look alike in it: {forms}"
+
+
+def added_of(effect: Mapping[str, Any]) -> list[str]:
+    """Candidates of an effect that are added: all forms that were fitted together, of those that look alike the one whose values are told."""
+    return list(effect["candidates"]) if effect["forms"] else list(effect["candidates"][:1])
+
+
+def instead_of(effect: Mapping[str, Any]) -> list[str]:
+    """Candidates that could be added in place of ``added_of`` the effect: its other forms, and other parts, that look alike in this campaign."""
+    return [c for c in dict.fromkeys([*effect["candidates"], *effect.get("look_alike", ())]) if c not in added_of(effect)]
 
 
 def effects_of(found: Diagnosis, doctor: Diagnostician) -> list[dict[str, Any]]:

@@ -395,6 +395,26 @@ def test_nothing_is_to_be_added_to_an_adequate_model(bench):
     assert told == [[nothing, None], [nothing, ["", True]], ["Add it to the model", ["main", False]]]
 
 
+def test_of_forms_that_look_alike_the_named_one_is_added_and_the_others_are_offered(bench):
+    """All of them were added at once."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { addPart } = await import('./static/better.js');
+      const wear = { candidates: ['raceway_wear.inner'], instead: ['raceway_wear.outer'] }, drag = { candidates: ['drag'], instead: [] };
+      return [[[wear], []], [[wear, drag], []], [[wear, drag], ['raceway_wear', 'drag']]].map(([effects, confusable]) => {
+        const answer = { model: 'RV20E-121', verdict: 'one effect', effects, base_off: [], confusable, rejected: [] }, asked = [];
+        const part = addPart({ answer, extension: null, context: { busy: () => '', start: (kind, given) => asked.push(given.effects) }, old: '' });
+        part.querySelector('#extend').click();
+        return [asked[0], ...[...part.querySelectorAll('option')].map((o) => o.textContent)];
+      });
+    }""")
+    alike = "raceway wear (outer), which looks alike"
+    assert told[0] == [["raceway_wear.inner"], "raceway wear (inner)", alike]
+    together = "raceway wear (inner) + drag", "raceway wear (inner)", "drag", "raceway wear (outer) + drag, which looks alike"
+    assert told[1] == [["raceway_wear.inner", "drag"], *together]
+    assert told[2] == [["raceway_wear.inner"], "raceway wear (inner)", "drag", alike]
+
+
 def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
     bench.page.goto(bench.address)
     empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))

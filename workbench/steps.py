@@ -97,6 +97,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
     from discrepancy.page.answer import headline
     from discrepancy.page.write import page_of
+    from discrepancy.verdict import added_of, instead_of
     from discrepancy.wording import (
         base_texts,
         error_text,
@@ -117,7 +118,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     for effect in answer.effects:
         effects.append({
             "name": effect["name"], "title": effect["title"], "place": variant_text(effect),
-            "candidates": effect["candidates"], "share": shares_text(answer, effect),
+            "candidates": added_of(effect), "instead": instead_of(effect), "share": shares_text(answer, effect),
             "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip

@@ -2,7 +2,7 @@
 
 import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
-import { offered, refusal } from "./refused.js";
+import { alike, offered, refusal } from "./refused.js";
 
 // Where it is told what is being done, once it is.
 const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`, "aria-live": "off" });
@@ -81,6 +81,7 @@ export function addPart(bag) {
   // What a former model lacks may be in this one already.
   const busy = context.busy() || (old && `${old} Diagnose that first.`);
   const options = offered(answer),
+    others = alike(answer),
     adequate = answer.verdict === "none";
   if (!options.length) return adequate ? h("section", {}, h("h2", {}, NOTHING)) : null;
   const add = (name) => context.start("extend", { model: answer.model, effects: name.split(" + "), anyway });
@@ -102,7 +103,7 @@ export function addPart(bag) {
       { class: "row" },
       options.length > 1
         ? choose(
-            options.map((o) => [o, effectName(o)]),
+            options.map((o) => [o, effectName(o) + (others.includes(o) ? ", which looks alike" : "")]),
             choice,
             (v) => {
               choice = v;
