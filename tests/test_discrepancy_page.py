@@ -18,7 +18,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
@@ -254,6 +254,14 @@ def test_diagnosis_of_one_effect(answer, tmp_path):
     assert max(effect["y"]) == pytest.approx(2e-5 * 50.0 / 167.0 / ARCSEC, rel=0.1) and len(load["traces"]) == len(response["data"])
     orders = figure(page, "response_orders_transmission_error")["data"][1]
     assert orders["x"][int(np.argmax(orders["y"]))] == "20"
+
+
+def test_an_interrupted_diagnosis_calls_effects_as_every_other_page_does(answer, tmp_path):
+    """crank_lobe_errors.crank_1 stood in its headline."""
+    reason = "stopped while looking for what is missing beside raceway_wear.inner; best so far: crank_lobe_errors.crank_1 + base.mesh_stiffness"
+    stopped = replace(answer, verdict=STOPPED, reason=reason)
+    told = "beside raceway wear (inner); best so far: crank lobe errors (crank 1) + base (mesh stiffness)"
+    assert told in headline(stopped) and "crank_lobe_errors" not in written(stopped, tmp_path)
 
 
 def test_diagnosis_of_a_set_shows_what_is_alike(answer, tmp_path):

@@ -95,7 +95,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
     from discrepancy.left_sizes import left_sizes
     from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
-    from discrepancy.page.answer import headline
+    from discrepancy.page.answer import headline, reason_text
     from discrepancy.page.write import page_of
     from discrepancy.verdict import added_of, instead_of
     from discrepancy.wording import (
@@ -126,7 +126,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
     return {
         "headline": headline(answer),
-        "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
+        "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,
         "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),

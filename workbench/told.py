@@ -44,15 +44,14 @@ def write_json(place: Path, content: object) -> None:
 
 @cache
 def names() -> re.Pattern[str]:
-    """Names of effects, with their form, and of quantities; not where they are part of a longer name or of a key."""
+    """Names of quantities; not where they are part of a longer name or of a key."""
     from discrepancy.campaign.quantities import QUANTITIES
-    from discrepancy.model_file import every_effect
 
-    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted({*every_effect(), *QUANTITIES}, key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted(QUANTITIES, key=len, reverse=True))})(?!\w)")
 
 
 def in_words(text: str) -> str:
     """What is told on the way, its effects and signals called as the page calls them elsewhere."""
-    from discrepancy.page.amounts import effect_title, with_titles
+    from discrepancy.page import amounts
 
-    return names().sub(lambda name: effect_title(name[0]), with_titles(text))
+    return names().sub(lambda name: amounts.signal_title(name[0]), amounts.in_words(text))

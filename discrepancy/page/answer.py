@@ -8,7 +8,7 @@ from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
-from discrepancy.page.amounts import signal_title
+from discrepancy.page.amounts import in_words, signal_title
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -60,7 +60,7 @@ def sentence(answer: Answer) -> str:
         share = f"It {wording.share_text(answer, best['share_explained'])}{f'; {error}' if error else ''}"
         said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
     if answer.verdict in (UNKNOWN, SEVERAL):
-        said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
+        said += f" ({reason_text(answer)[:1].upper()}{reason_text(answer)[1:]}.)"
     if answer.verdict == NONE and (figure := answer.reason.partition("; ")[2]):
         said += f" {figure[:1].upper()}{figure[1:]}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
@@ -79,10 +79,15 @@ def headline(answer: Answer) -> str:
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: f"{part_named(answer, names)} part of what the model lacks, but something else is left {answer.left_over}.",
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
-        STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
+        STOPPED: f"The diagnosis was interrupted: {reason_text(answer)}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     return texts.get(answer.verdict, answer.verdict)
+
+
+def reason_text(answer: Answer) -> str:
+    """What the verdict rests on, or how far an interrupted diagnosis came."""
+    return in_words(answer.reason)
 
 
 def part_named(answer: Answer, names: list[str]) -> str:
@@ -110,7 +115,7 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
 
 def cards(answer: Answer) -> list[Card]:
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
+    made = [Card("Verdict", answer.verdict, reason_text(answer), tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
         best, together = answer.effects[0], wording.fitted_together(answer)
         share = wording.percent(answer, diagnosis.captured)
