@@ -256,6 +256,16 @@ def test_diagnosis_of_one_effect(answer, tmp_path):
     assert orders["x"][int(np.argmax(orders["y"]))] == "20"
 
 
+def test_which_form_and_part_it_is_stands_in_the_headline_and_not_on_the_cards(answer):
+    """It stood four times above the evidence."""
+    from discrepancy.page.answer import cards
+
+    placed = replace(answer, effects=[answer.effects[0] | {"place": "lobe throw error 1, crank 1 at disc 1"}])
+    assert headline(placed) == "The model lacks clearance (lobe throw error 1, crank 1 at disc 1)."
+    notes = [card.note for card in cards(placed)]
+    assert "best: clearance" in notes and not any("crank 1" in note for note in notes)
+
+
 def test_an_interrupted_diagnosis_calls_effects_as_every_other_page_does(answer, tmp_path):
     """crank_lobe_errors.crank_1 stood in its headline."""
     reason = "stopped while looking for what is missing beside raceway_wear.inner; best so far: crank_lobe_errors.crank_1 + base.mesh_stiffness"

@@ -147,11 +147,12 @@ export function show(root, context) {
     doing();
   }
 
+  // Which form it is, and at which part, is said once above.
   const effectOf = (e) =>
     h(
       "div",
       { style: { "margin-top": "8px" } },
-      h("h3", {}, words(e.name) + (e.place ? ` (${e.place})` : "")),
+      h("h3", {}, words(e.name) + (e.place && !answer.headline.includes(`(${e.place})`) ? ` (${e.place})` : "")),
       e.parameters.map((p) =>
         h(
           "div",
