@@ -4,6 +4,7 @@ The statistics speaks of candidates; several can be variants of one effect (a pi
 centre, or oval).  Here they are put together under the effect's name.
 """
 
+import time
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -35,7 +36,8 @@ from fmu_src.threads import sharing_no_matrices
 
 @dataclass(frozen=True)
 class Answer:
-    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here."""
+    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
+    ``made`` is when it was made [s since 1970]: one that is kept is found again later."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -47,6 +49,7 @@ class Answer:
     warnings: list[str]
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
+    made: float = field(default_factory=time.time, compare=False)
 
     @property
     def left_over(self) -> str:

@@ -8,6 +8,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from workbench_server import CSV, asked, own
@@ -316,6 +317,21 @@ def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_do
     assert beat["said"] == ["misfit: transmission error, orders; best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
     assert told(30.0, stopped=True)["tasks"][0]["before"] == pytest.approx(600.0, abs=2.0)
     assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
+
+
+def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypatch):
+    """It said how many minutes of computing it took, where nothing was computed."""
+    from workbench import steps
+
+    folder, made = opened(tmp_path / "b"), 1.7e9
+    monkeypatch.setattr(steps, "inputs", lambda *_: (None, None))
+    monkeypatch.setattr(steps, "report", lambda *_: None)
+    monkeypatch.setattr(steps, "answer_data", lambda _: {})
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made))
+    for found in (made, None):
+        steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
+        assert json.loads((tmp_path / "result.json").read_text())["found"] == found
+        made = time.time() + 60.0
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):

@@ -493,14 +493,37 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
 
 
+# A diagnosis as the page has it.
+ANSWER = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
+          "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [], "laws": [],
+          "page": {"cards": [], "sections": [], "warnings": []}, "doubts": [], "command": "c"}  # fmt: skip
+
+
+def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_effect_s_part_once(bench):
+    """"3 min of computing" stood there where nothing was computed; "crank 1 at disc 1" in the headline and below it."""
+    folder = opened(bench.folder)
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    effect = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "candidates": ["crank_lobe_errors.crank_1"], "instead": [], "parameters": [],
+              "share": "explains", "error": "", "held": ""}  # fmt: skip
+    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank lobe errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
+    folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
+    folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
+    folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9})
+    bench.view("diagnose")
+    head = bench.page.locator("#verdict p").first
+    head.get_by_text("found again: made ").wait_for()
+    assert "Nov 2023" in head.inner_text() and head.inner_text().endswith("in 3 min of computing")
+    assert bench.page.locator("#verdict").inner_text().count("crank 1 at disc 1") == 1
+    folder.remember("jobs/diagnose/result", answer | {"found": None})
+    bench.page.reload()
+    head.get_by_text("one effect · 3 min of computing").wait_for()
+
+
 def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     """Adding an effect took minutes without a word; a diagnosis told of its step alone."""
     folder = opened(bench.folder)
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
-    part = {"cards": [], "sections": [], "warnings": []}
-    answer = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
-              "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [{"name": "needle_clearance"}], "laws": [], "page": part,
-              "doubts": [], "command": "c"}  # fmt: skip
+    answer = ANSWER | {"rejected": [{"name": "needle_clearance"}]}
     folder.remember("jobs/diagnose/result", answer)
     far = time.time() + 3600.0
 

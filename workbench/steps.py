@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import time
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -73,11 +74,11 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
 
 
 def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    """What was known by then is an answer, too."""
+    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970]."""
     from discrepancy.remembered import diagnosed
     from discrepancy.verdict import AnswerSoFar
 
-    stopped = False
+    stopped, began = False, time.time()
     with task("diagnosing"):
         file, campaign = inputs(folder, given)
         try:
@@ -86,7 +87,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer, stopped = stop.answer, True
     with task("drawing the page"):
         report(answer, place)
-        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose")}
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"),
+                 "found": answer.made if answer.made < began else None}  # fmt: skip
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
