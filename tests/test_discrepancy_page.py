@@ -19,10 +19,12 @@ from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.answer import headline
+from discrepancy.page.changed_figures import changed_figures
 from discrepancy.page.response import averaged
 from discrepancy.page.runs import runs_of
 from discrepancy.page.spectra import amplitudes, bridged
@@ -322,6 +324,21 @@ def test_extension_says_what_it_did(tmp_path):
     assert "did not help" in failed and "3.21" in failed and "4.56" in failed and amounts.text(4e-6, "rad") in failed
     unproven = written(Extension(file_of(STEPS[2]), STEPS[2], NOT_PROVEN), tmp_path)
     assert "No run was held out" in unproven
+
+
+def test_an_extension_shows_its_key_figures_before_and_with_the_effect(tmp_path):
+    """Only a comparison of the new model did, beside what was measured alone."""
+    pairs = []
+    for k in range(14):
+        before = KeyFigure("hysteresis", f"{k} degC", "lost motion" if k else "torsional stiffness", "rad" if k else "N.m/rad", 3e-4, (4.0 - 0.1 * k) * 1e-4, 1e-6, 3, True)
+        pairs.append((before, replace(before, model=3.01e-4)))
+    extension = Extension(file_of(*STEPS[:2]), STEPS[1], HELPED, figures=pairs)
+    few, every = changed_figures(extension)[0].tables
+    assert len(few.rows) == 2 and len(every.rows) == 14 and every.folded == "All 14 key figures"
+    row = next(row for row in few.rows if row[2] == "lost motion")
+    assert row[3:] == ["1.03 arcmin", "0.00344 arcmin", "1.34 arcmin", "1.03 arcmin", "90.0 → 1.00"]
+    assert "model before" in written(extension, tmp_path)
+    assert changed_figures(replace(extension, figures=[])) == []
 
 
 def test_next_experiment(answer, tmp_path):

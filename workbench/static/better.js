@@ -145,7 +145,8 @@ export function addPart(bag) {
               : refusal(answer, extension, busy, add),
             extension.left ? h("p", { class: "fair", id: "left" }, extension.left) : null,
             cards(extension.page.cards),
-            sections(extension.page.sections),
+            // Stiffness, lost motion and the like are what one asks first.
+            sections(extension.page.sections, extension.page.sections[0]?.id === "figures" ? 1 : 0),
             command(extension.command),
           ]
         : null,
