@@ -415,6 +415,20 @@ def test_of_forms_that_look_alike_the_named_one_is_added_and_the_others_are_offe
     assert told[2] == [["raceway_wear.inner"], "raceway wear (inner)", "drag", alike]
 
 
+def test_below_an_adequate_model_no_experiment_is_asked_for_but_anyway(bench):
+    """'Propose the next experiment' stood there as what to do next."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { nextPart } = await import('./static/better.js'), found = { verdict: 'nothing is left to separate', asked: [], proposals: [], stakes: {} };
+      return [['none', null], ['none', found], ['one effect', null]].map(([verdict, next]) => {
+        const part = nextPart({ answer: { model: 'RV20E-121', verdict }, next, context: { busy: () => '' } });
+        return [part.querySelector('h2').textContent, part.querySelector('#next').closest('details')?.open ?? null];
+      });
+    }""")
+    nothing = "Nothing is left to explain: no further experiment is asked for"
+    assert told == [[nothing, False], [nothing, True], ["What to measure next", None]]
+
+
 def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
     bench.page.goto(bench.address)
     empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))
@@ -424,7 +438,7 @@ def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
 PROPOSED = """async (proposals) => {
     const { nextPart } = await import('./static/better.js');
     const next = { verdict: 'nothing is left to separate', asked: [], proposals, stakes: {}, cost_unit: 'runs', command: '' };
-    return nextPart({ next, context: { busy: () => '' } }).textContent;
+    return nextPart({ answer: { verdict: 'set' }, next, context: { busy: () => '' } }).textContent;
   }"""
 
 
@@ -448,7 +462,8 @@ def test_a_sheet_is_offered_where_something_is_proposed(bench):
     page.goto(bench.address)
     offers = page.evaluate("""async () => {
       const { nextPart } = await import('./static/better.js'), one = { experiment: 'a loop', cost: 2, least: 3, mean: 4 };
-      return [[], [one]].map((proposals) => nextPart({ next: { verdict: 'nothing to tell apart', asked: [], proposals, stakes: {} }, context: { busy: () => '' } }).textContent);
+      return [[], [one]].map((proposals) => nextPart({ answer: { verdict: 'set' }, next: { verdict: 'nothing to tell apart', asked: [], proposals, stakes: {} },
+        context: { busy: () => '' } }).textContent);
     }""")
     assert "Sheet for the rig" not in offers[0] and "Print" not in offers[0] and "Ask again" in offers[0] and "Sheet for the rig" in offers[1]
 

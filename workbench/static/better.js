@@ -61,18 +61,19 @@ export function nextPart(bag) {
         command(next.command),
       ]
     : null;
-  return h(
-    "section",
-    {},
-    h("h2", {}, "What to measure next"),
-    h(
-      "div",
-      { class: "panel" },
-      sheet,
-      h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
-      progressOf("next"),
-    ),
-  );
+  const ask = [
+    sheet,
+    h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
+  ];
+  // Of an adequate model nothing need be asked; what was asked all the same is seen.
+  if (answer.verdict === "none")
+    return h(
+      "section",
+      {},
+      h("h2", {}, "Nothing is left to explain: no further experiment is asked for"),
+      h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
+    );
+  return h("section", {}, h("h2", {}, "What to measure next"), h("div", { class: "panel" }, ask, progressOf("next")));
 }
 
 export function addPart(bag) {
