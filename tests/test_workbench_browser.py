@@ -429,6 +429,25 @@ def test_below_an_adequate_model_no_experiment_is_asked_for_but_anyway(bench):
     assert told == [[nothing, False], [nothing, True], ["What to measure next", None]]
 
 
+def test_charts_that_were_not_scrolled_to_are_printed(bench):
+    """They were empty on paper; in a section that is closed there is nothing to draw."""
+    page = bench.page
+    page.goto(bench.address)
+    page.evaluate("""async () => {
+      const { sections } = await import('./static/page.js'), { script } = await import('./static/net.js'), view = document.getElementById('view');
+      const figure = (name) => ({ name, title: name, caption: '', data: [{ type: 'bar', x: ['a'], y: [1] }], layout: {}, height: 300, labels: [], keys: [] });
+      const section = (name) => ({ title: name, lead: '', figures: [figure(name)], tables: [] });
+      view.replaceChildren(...sections([section('open'), section('closed')], 1));
+      view.style.paddingTop = '9000px';
+      await script('plotly.js');
+      await script('narrow.js');
+    }""")
+    drawn = "() => [...document.querySelectorAll('[data-figure]')].map((place) => [place.dataset.figure, place.querySelectorAll('.bars path').length])"
+    assert page.evaluate(drawn) == [["open", 0]]
+    page.pdf()
+    assert page.evaluate(drawn) == [["open", 1]]
+
+
 def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
     bench.page.goto(bench.address)
     empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))
