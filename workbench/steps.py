@@ -16,6 +16,7 @@ from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
 from workbench.makers import makers
+from workbench.page_words import on_page
 from workbench.told import in_words, page_data, write_json
 
 if TYPE_CHECKING:
@@ -169,7 +170,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
     write_json(place / "result.json", {
-        "verdict": with_titles(run.verdict), "rivals": run.rivals, "asked": asked, "proposals": proposals,
+        "verdict": on_page(with_titles(run.verdict)), "rivals": run.rivals, "asked": asked, "proposals": proposals,
         "stakes": {with_titles(where): at_stake for where, at_stake in run.stakes().items()}, "cost_unit": run.cost_unit,
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip

@@ -11,15 +11,16 @@ from fmu_src.checked_file import write_text
 from pages.content import Page, Table
 from pages.look import Figure
 from pages.render import described
+from workbench.page_words import on_page
 
 
 def page_data(page: Page) -> dict[str, Any]:
-    """The same content as the page's file has."""
+    """The same content as the page's file has, in words of the workbench."""
     return {
-        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings,
-        "cards": [asdict(card) for card in page.cards],
+        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": on_page(page.finding), "warnings": page.warnings,
+        "cards": [asdict(card) | {"note": on_page(card.note)} for card in page.cards],
         "sections": [
-            {"id": s.id, "title": s.title, "lead": s.lead, "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
+            {"id": s.id, "title": s.title, "lead": on_page(s.lead), "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
             for s in page.sections
         ],
     }  # fmt: skip

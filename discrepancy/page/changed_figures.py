@@ -18,7 +18,7 @@ def changed_figures(result: Extension) -> list[Section]:
     after = {id(f): changed for f, changed in result.figures}
     worst = [(f, after[id(f)]) for f in furthest(before)[:FEW_FIGURES]]
     tables = [table(worst)]
-    lead = "Read alike from what was measured and from both models, as rvwear compare does, each calibrated to this campaign."
+    lead = "Read alike from what was measured and from both models, each calibrated to this campaign as in a comparison."
     if len(before) > len(worst):
         lead += f" Of {len(before)} each is shown where it was furthest off."
         tables.append(table(result.figures, f"All {len(before)} key figures"))
