@@ -143,10 +143,10 @@ def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> lis
     return found
 
 
-def figures_of(diagnostician: Diagnostician, model: PhysicalModel) -> list[KeyFigure]:
-    """Key figures of what was measured beside those of the base model with its nuisances."""
+def figures_of(diagnostician: Diagnostician, model: PhysicalModel, values: Mapping[str, float] | None = None) -> list[KeyFigure]:
+    """Key figures of what was measured beside those of the base model with its nuisances, or of the model at other ``values`` (SI)."""
     space = diagnostician.space
-    predictions = space.predictions(space.base.values, list(range(len(space.records))))
+    predictions = space.predictions(space.base.values if values is None else values, list(range(len(space.records))))
     return key_figures(space, predictions, diagnostician.orders, model.campaign.rated_torque or model.bench.rated_load)
 
 

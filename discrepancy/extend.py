@@ -13,12 +13,13 @@ from typing import Any
 from discrepancy import as_told
 from discrepancy.already_there import AlreadyThere, numbers_of
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import by_signal, runs_of
+from discrepancy.compare import by_signal, figures_of, runs_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile, extended_reducer
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -46,12 +47,14 @@ class UnknownEffect(InputFault):
 
 @dataclass(frozen=True)
 class Extension:
-    """The extended model and the step of its ladder; ``file`` is the old one where the step did not help; ``units`` (SI) of its nuisances."""
+    """The extended model and the step of its ladder; ``file`` is the old one where the step did not help; ``units`` (SI) of its nuisances;
+    ``figures`` are the key figures, each of the model before and with what was added."""
 
     file: ModelFile
     step: dict[str, Any]
     verdict: str
     units: dict[str, str] = field(default_factory=dict)
+    figures: list[tuple[KeyFigure, KeyFigure]] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         signals = [as_told.row(r, r["signal"], r["unit"], ("before", "after", "noise_floor")) for r in self.step["signals"]]
@@ -60,7 +63,8 @@ class Extension:
             for name, numbers in self.file.effects.items()
         }
         step = self.step | {"signals": signals, "nuisances": as_told.numbers(self.step["nuisances"], self.units, as_told.tables_of(self.file))}
-        return {"model": self.file.name, "verdict": self.verdict, "step": step, "effects": effects}
+        return {"model": self.file.name, "verdict": self.verdict, "step": step, "effects": effects,
+                "key_figures": as_told.figures([f for f, _ in self.figures]), "key_figures_after": as_told.figures([f for _, f in self.figures])}  # fmt: skip
 
 
 @sharing_no_matrices
@@ -109,6 +113,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         fitted = judgement(diagnostician, fit, diagnostician.space.training)
         outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
+    figures = list(zip(figures_of(diagnostician, model), figures_of(diagnostician, model, fit.fit.values), strict=True))
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
         "training_before": fitted.before if fitted else None, "training_after": fitted.after if fitted else None,
@@ -124,7 +129,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     keep = outcome == HELPED or judged is None or (outcome == NOT_PROVEN and not judged.seen) or anyway
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
-                     {p.name: p.unit for p in diagnostician.space.base.parameters})
+                     {p.name: p.unit for p in diagnostician.space.base.parameters}, figures)
 
 
 def known_to(value: float, interval: tuple[float, float]) -> float:

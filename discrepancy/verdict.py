@@ -4,7 +4,8 @@ The statistics speaks of candidates; several can be variants of one effect (a pi
 centre, or oval).  Here they are put together under the effect's name.
 """
 
-from collections.abc import Callable, Container
+import time
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,8 @@ from fmu_src.threads import sharing_no_matrices
 
 @dataclass(frozen=True)
 class Answer:
-    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here."""
+    """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
+    ``made`` is when it was made [s since 1970]: one that is kept is found again later."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -47,6 +49,7 @@ class Answer:
     warnings: list[str]
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
+    made: float = field(default_factory=time.time, compare=False)
 
     @property
     def left_over(self) -> str:
@@ -184,6 +187,16 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
     if verdict == SEVERAL:
         return f"one effect in several forms, each significant beside the others: {forms}"
     return f"one effect explains the misfit; which of its forms this campaign cannot tell, for they look alike in it: {forms}"
+
+
+def added_of(effect: Mapping[str, Any]) -> list[str]:
+    """Candidates of an effect that are added: all forms that were fitted together, of those that look alike the one whose values are told."""
+    return list(effect["candidates"]) if effect["forms"] else list(effect["candidates"][:1])
+
+
+def instead_of(effect: Mapping[str, Any]) -> list[str]:
+    """Candidates that could be added in place of ``added_of`` the effect: its other forms, and other parts, that look alike in this campaign."""
+    return [c for c in dict.fromkeys([*effect["candidates"], *effect.get("look_alike", ())]) if c not in added_of(effect)]
 
 
 def effects_of(found: Diagnosis, doctor: Diagnostician) -> list[dict[str, Any]]:

@@ -1,12 +1,16 @@
 """The command line as a user meets it: figures, exit codes, files, errors."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from cli.main import main
 from orchestrator.netcdf import read
+from orchestrator.settings import parse_setting
+from reducers.reducer import load_reducer
+from studies.effects_set import effects_set
 
 SOLVE_KEYS = {
     "peak_pin_force_N", "mean_loaded_teeth", "peak_contact_pressure_MPa", "peak_roller_force_N", "mean_lag_arcsec",
@@ -43,6 +47,18 @@ def test_solve_gives_the_promised_figures(capsys):
 ])  # fmt: skip
 def test_solve_options_act(capsys, options, lag):
     assert json_of(capsys, "solve", *RIGID, *options)["mean_lag_arcsec"] == pytest.approx(lag, rel=0.005)
+
+
+def test_the_line_above_the_figures_says_which_effects_are_set(capsys):
+    """It was the same line with an effect as without."""
+    on, shape = "effects.thermal_expansion.expansion=2e-6 1/K", "effects.thermal_expansion.reference=300K"
+    for settings, said in (([on], "turn, with thermal expansion"), ([shape], "turn")):
+        assert main(["solve", "--positions", "8", *(word for text in settings for word in ("--set", text))]) == 0
+        assert capsys.readouterr().out.splitlines()[0].strip() == f"RV20E-121 over one crank {said}"
+    warm = load_reducer("RV20E-121")
+    warm = replace(warm, starts=warm.starts | {"thermal_expansion": 2e-6})
+    off = parse_setting("effects.thermal_expansion.expansion=0", [warm.plant, warm.wear])
+    assert effects_set(warm, [off]) == ", without thermal expansion" and effects_set(warm, []) == ""
 
 
 @pytest.mark.parametrize("arguments", [("solve", "--positions", "8"), ("hysteresis", "--steps", "4", "--angles", "1"), ("modes",)])

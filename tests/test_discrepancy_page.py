@@ -18,11 +18,13 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.answer import headline
+from discrepancy.page.changed_figures import changed_figures
 from discrepancy.page.response import averaged
 from discrepancy.page.runs import runs_of
 from discrepancy.page.spectra import amplitudes, bridged
@@ -256,6 +258,24 @@ def test_diagnosis_of_one_effect(answer, tmp_path):
     assert orders["x"][int(np.argmax(orders["y"]))] == "20"
 
 
+def test_which_form_and_part_it_is_stands_in_the_headline_and_not_on_the_cards(answer):
+    """It stood four times above the evidence."""
+    from discrepancy.page.answer import cards
+
+    placed = replace(answer, effects=[answer.effects[0] | {"place": "lobe throw error 1, crank 1 at disc 1"}])
+    assert headline(placed) == "The model lacks clearance (lobe throw error 1, crank 1 at disc 1)."
+    notes = [card.note for card in cards(placed)]
+    assert "best: clearance" in notes and not any("crank 1" in note for note in notes)
+
+
+def test_an_interrupted_diagnosis_calls_effects_as_every_other_page_does(answer, tmp_path):
+    """crank_lobe_errors.crank_1 stood in its headline."""
+    reason = "stopped while looking for what is missing beside raceway_wear.inner; best so far: crank_lobe_errors.crank_1 + base.mesh_stiffness"
+    stopped = replace(answer, verdict=STOPPED, reason=reason)
+    told = "beside raceway wear (inner); best so far: crank lobe errors (crank 1) + base (mesh stiffness)"
+    assert told in headline(stopped) and "crank_lobe_errors" not in written(stopped, tmp_path)
+
+
 def test_diagnosis_of_a_set_shows_what_is_alike(answer, tmp_path):
     effects = [*answer.effects, answer.effects[0] | {"name": "backlash", "held_out_error_before": None}]
     twins = replace(answer.diagnosis, correlations={"clearance ~ backlash": 0.9987}, confusable=["clearance", "backlash"])
@@ -304,6 +324,21 @@ def test_extension_says_what_it_did(tmp_path):
     assert "did not help" in failed and "3.21" in failed and "4.56" in failed and amounts.text(4e-6, "rad") in failed
     unproven = written(Extension(file_of(STEPS[2]), STEPS[2], NOT_PROVEN), tmp_path)
     assert "No run was held out" in unproven
+
+
+def test_an_extension_shows_its_key_figures_before_and_with_the_effect(tmp_path):
+    """Only a comparison of the new model did, beside what was measured alone."""
+    pairs = []
+    for k in range(14):
+        before = KeyFigure("hysteresis", f"{k} degC", "lost motion" if k else "torsional stiffness", "rad" if k else "N.m/rad", 3e-4, (4.0 - 0.1 * k) * 1e-4, 1e-6, 3, True)
+        pairs.append((before, replace(before, model=3.01e-4)))
+    extension = Extension(file_of(*STEPS[:2]), STEPS[1], HELPED, figures=pairs)
+    few, every = changed_figures(extension)[0].tables
+    assert len(few.rows) == 2 and len(every.rows) == 14 and every.folded == "All 14 key figures"
+    row = next(row for row in few.rows if row[2] == "lost motion")
+    assert row[3:] == ["1.03 arcmin", "0.00344 arcmin", "1.34 arcmin", "1.03 arcmin", "90.0 → 1.00"]
+    assert "model before" in written(extension, tmp_path)
+    assert changed_figures(replace(extension, figures=[])) == []
 
 
 def test_next_experiment(answer, tmp_path):

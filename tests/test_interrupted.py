@@ -78,6 +78,13 @@ def test_what_is_known_so_far_is_told_and_the_diagnosis_goes_on(monkeypatch):
     assert not again.space.predictions.unfinished
 
 
+def test_hours_between_two_commands_are_no_computing(monkeypatch):
+    doctor = Diagnostician(bench({}))
+    kept, clock, spent = pickle.dumps(doctor), time.perf_counter, time.perf_counter() - doctor.started
+    monkeypatch.setattr(time, "perf_counter", lambda: clock() + 7200.0)
+    assert time.perf_counter() - pickle.loads(kept).started == pytest.approx(spent, abs=60.0)  # noqa: S301 - made here
+
+
 def test_interrupted_before_the_base_is_fitted_nothing_is_known(monkeypatch):
     doctor = Diagnostician(bench({}))
     monkeypatch.setattr(doctor.space, "fit_base", lambda: signal.raise_signal(signal.SIGINT))

@@ -96,6 +96,13 @@ def test_wider_needle_bearings_are_found_and_added(file, wide, diagnosed, tmp_pa
     # What is in the model is no candidate any more, and the model errs by the noise.
     after = compare(again, wide)
     assert after.diagnostician.localisation.findings == []
+    # Key figures before and with it are those that a comparison of either model says.
+    was, now = compare(file, wide).figures, after.figures
+    for (before, changed), one, other in zip(extension.figures, was, now, strict=True):
+        assert (before.condition, before.name, before.measured, before.model) == (one.condition, one.name, one.measured, one.model)
+        assert (changed.measured, changed.model) == pytest.approx((other.measured, other.model), abs=max(0.2 * other.noise, 1e-9 * abs(other.model)))
+    told = extension.as_json()
+    assert len(told["key_figures"]) == len(told["key_figures_after"]) == len(now) and told["key_figures"][0]["unit"] == told["key_figures_after"][0]["unit"]
     assert after.model.candidates and all(c.name != "needle_clearance" for c in after.model.candidates)
 
 

@@ -17,7 +17,7 @@ from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import load_model
 from discrepancy.next_run import Asked, NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
-from discrepancy.verdict import merged
+from discrepancy.verdict import added_of, instead_of, merged
 from discrepancy.wording import error_text, is_shown, left_text, share_text, shares_text, tone
 from fmu_src.progress import Task
 
@@ -139,7 +139,10 @@ def test_forms_that_are_added_together_stand_each_with_its_values(capsys):
     # Alternatives are one fit each; the first speaks.
     alike, _ = merged(parts, {"disc_tooth_errors.oval_form"})
     assert not alike["forms"] and set(alike["parameters"]) == {"oval"} and len(alike["candidates"]) == 2
+    assert added_of(alike) == ["disc_tooth_errors.oval_form"]
+    assert instead_of(alike | {"look_alike": ["disc_tooth_errors.crank_2"]}) == ["disc_tooth_errors.scatter", "disc_tooth_errors.crank_2"]
     effect, _ = merged(parts, set(forms))
+    assert added_of(effect) == effect["candidates"] and instead_of(effect) == []
     assert effect["forms"] == {"oval_form": ["oval"], "scatter": ["scatter"]} and effect["share_explained"] == 1.0
     answer = answer_of(INCOMPLETE, True)
     answer.effects = [effect]

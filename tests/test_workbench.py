@@ -8,6 +8,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from workbench_server import CSV, asked, own
@@ -318,6 +319,21 @@ def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_do
     assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
 
 
+def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypatch):
+    """It said how many minutes of computing it took, where nothing was computed."""
+    from workbench import steps
+
+    folder, made = opened(tmp_path / "b"), 1.7e9
+    monkeypatch.setattr(steps, "inputs", lambda *_: (None, None))
+    monkeypatch.setattr(steps, "report", lambda *_: None)
+    monkeypatch.setattr(steps, "answer_data", lambda _: {})
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made))
+    for found in (made, None):
+        steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
+        assert json.loads((tmp_path / "result.json").read_text())["found"] == found
+        made = time.time() + 60.0
+
+
 def test_a_job_that_is_silent_is_gone(tmp_path):
     folder = opened(tmp_path)
     folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time() - 100.0})
@@ -356,6 +372,44 @@ def test_stop_asks_and_ends_nobody_by_number(tmp_path):
 
 
 # what the page is told ------------------------------------------------------------------------
+@pytest.mark.parametrize(("said", "told"), [
+    ("count them, and give --pins", "count them, and give 'pins in the ring'"),
+    ("--ratio 3 with --pins 40: look at --lost-motion", "ratio 3 with pins 40: look at lost motion"),
+    ("A and B. rvwear next proposes what would.", "A and B. 'Propose the next experiment' proposes what would."),
+    ("correct it (rvwear extend), or see `rvwear compare`", "correct it ('Add it'), or see Look"),
+    # Nothing on the page does these, and a line to type is one.
+    ("rvwear hysteresis and bench give them without it", "rvwear hysteresis and bench give them without it"),
+    ("completed anew by: rvwear reducer new --ratio 121 --pins 40", "completed anew by: rvwear reducer new --ratio 121 --pins 40"),
+])  # fmt: skip
+def test_what_commands_and_page_share_names_fields_and_buttons_on_the_page(said, told):
+    """"give --pins" stood where nobody has typed a command."""
+    from workbench.reducers import plainly
+
+    assert plainly(said) == told
+
+
+def test_the_remedy_of_a_scale_is_said_in_words_of_the_page():
+    from discrepancy.campaign.model import Source
+    from discrepancy.known_factors import known_factor
+    from workbench.page_words import on_page
+
+    factor = known_factor(3438.0, "arcmin", "rad", None)
+    for header in ("y", "two words"):
+        remedy = factor.remedy(Source("a.csv", f"column {header}", "arcmin", 2.9e-4), "rad")
+        told = on_page(remedy)
+        assert f"takes it out, typed under In as the scale of column {header}, or in each of its runs in campaign.toml: columns.value" in told
+        assert "--" in remedy and "--" not in told and "rvwear" not in told
+
+
+def test_a_file_that_is_no_measurement_says_what_to_do_without_options(tmp_path):
+    """"give units by unit 'COLUMN=UNIT'" stood in its row, which has no such field."""
+    folder = opened(tmp_path / "b")
+    folder.new_file("notes.csv", b"time [s]\n1\n3\n5\n")
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    (reason,) = view(folder)["unread"].values()
+    assert "fits; write units into the heads of its columns" in reason and "lost motion" in reason and "COLUMN" not in reason
+
+
 def test_signals_in_what_a_page_says_have_one_form():
     from discrepancy.page.amounts import with_titles
 
@@ -495,7 +549,7 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     found = completed(folder, {**asked, "stiffness": "212Nm/arcmin"})
     assert float(stiffness(found)[0]) == pytest.approx(212.0, rel=2e-3) and stiffness(found)[1] == "212 asked for"
     assert "--rated 784 " in found["command"] and "--stiffness 212 " in found["command"] and "support_compliance" not in found["command"]
-    assert any("give diameter if the catalogue has it" in text for text in found["page"]["warnings"])
+    assert any("give 'outer diameter of the housing' if the catalogue has it" in text for text in found["page"]["warnings"])
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
 

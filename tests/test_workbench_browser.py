@@ -395,6 +395,59 @@ def test_nothing_is_to_be_added_to_an_adequate_model(bench):
     assert told == [[nothing, None], [nothing, ["", True]], ["Add it to the model", ["main", False]]]
 
 
+def test_of_forms_that_look_alike_the_named_one_is_added_and_the_others_are_offered(bench):
+    """All of them were added at once."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { addPart } = await import('./static/better.js');
+      const wear = { candidates: ['raceway_wear.inner'], instead: ['raceway_wear.outer'] }, drag = { candidates: ['drag'], instead: [] };
+      return [[[wear], []], [[wear, drag], []], [[wear, drag], ['raceway_wear', 'drag']]].map(([effects, confusable]) => {
+        const answer = { model: 'RV20E-121', verdict: 'one effect', effects, base_off: [], confusable, rejected: [] }, asked = [];
+        const part = addPart({ answer, extension: null, context: { busy: () => '', start: (kind, given) => asked.push(given.effects) }, old: '' });
+        part.querySelector('#extend').click();
+        return [asked[0], ...[...part.querySelectorAll('option')].map((o) => o.textContent)];
+      });
+    }""")
+    alike = "raceway wear (outer), which looks alike"
+    assert told[0] == [["raceway_wear.inner"], "raceway wear (inner)", alike]
+    together = "raceway wear (inner) + drag", "raceway wear (inner)", "drag", "raceway wear (outer) + drag, which looks alike"
+    assert told[1] == [["raceway_wear.inner", "drag"], *together]
+    assert told[2] == [["raceway_wear.inner"], "raceway wear (inner)", "drag", alike]
+
+
+def test_below_an_adequate_model_no_experiment_is_asked_for_but_anyway(bench):
+    """'Propose the next experiment' stood there as what to do next."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { nextPart } = await import('./static/better.js'), found = { verdict: 'nothing is left to separate', asked: [], proposals: [], stakes: {} };
+      return [['none', null], ['none', found], ['one effect', null]].map(([verdict, next]) => {
+        const part = nextPart({ answer: { model: 'RV20E-121', verdict }, next, context: { busy: () => '' } });
+        return [part.querySelector('h2').textContent, part.querySelector('#next').closest('details')?.open ?? null];
+      });
+    }""")
+    nothing = "Nothing is left to explain: no further experiment is asked for"
+    assert told == [[nothing, False], [nothing, True], ["What to measure next", None]]
+
+
+def test_charts_that_were_not_scrolled_to_are_printed(bench):
+    """They were empty on paper; in a section that is closed there is nothing to draw."""
+    page = bench.page
+    page.goto(bench.address)
+    page.evaluate("""async () => {
+      const { sections } = await import('./static/page.js'), { script } = await import('./static/net.js'), view = document.getElementById('view');
+      const figure = (name) => ({ name, title: name, caption: '', data: [{ type: 'bar', x: ['a'], y: [1] }], layout: {}, height: 300, labels: [], keys: [] });
+      const section = (name) => ({ title: name, lead: '', figures: [figure(name)], tables: [] });
+      view.replaceChildren(...sections([section('open'), section('closed')], 1));
+      view.style.paddingTop = '9000px';
+      await script('plotly.js');
+      await script('narrow.js');
+    }""")
+    drawn = "() => [...document.querySelectorAll('[data-figure]')].map((place) => [place.dataset.figure, place.querySelectorAll('.bars path').length])"
+    assert page.evaluate(drawn) == [["open", 0]]
+    page.pdf()
+    assert page.evaluate(drawn) == [["open", 1]]
+
+
 def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
     bench.page.goto(bench.address)
     empty, full = (bench.page.evaluate(PROPOSED, proposals) for proposals in ([], [{"experiment": "loops", "cost": 2, "least": 9, "mean": 9}]))
@@ -404,7 +457,7 @@ def test_no_sheet_for_the_rig_is_offered_where_nothing_is_proposed(bench):
 PROPOSED = """async (proposals) => {
     const { nextPart } = await import('./static/better.js');
     const next = { verdict: 'nothing is left to separate', asked: [], proposals, stakes: {}, cost_unit: 'runs', command: '' };
-    return nextPart({ next, context: { busy: () => '' } }).textContent;
+    return nextPart({ answer: { verdict: 'set' }, next, context: { busy: () => '' } }).textContent;
   }"""
 
 
@@ -428,7 +481,8 @@ def test_a_sheet_is_offered_where_something_is_proposed(bench):
     page.goto(bench.address)
     offers = page.evaluate("""async () => {
       const { nextPart } = await import('./static/better.js'), one = { experiment: 'a loop', cost: 2, least: 3, mean: 4 };
-      return [[], [one]].map((proposals) => nextPart({ next: { verdict: 'nothing to tell apart', asked: [], proposals, stakes: {} }, context: { busy: () => '' } }).textContent);
+      return [[], [one]].map((proposals) => nextPart({ answer: { verdict: 'set' }, next: { verdict: 'nothing to tell apart', asked: [], proposals, stakes: {} },
+        context: { busy: () => '' } }).textContent);
     }""")
     assert "Sheet for the rig" not in offers[0] and "Print" not in offers[0] and "Ask again" in offers[0] and "Sheet for the rig" in offers[1]
 
@@ -473,14 +527,37 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
 
 
+# A diagnosis as the page has it.
+ANSWER = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
+          "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [], "laws": [],
+          "page": {"cards": [], "sections": [], "warnings": []}, "doubts": [], "command": "c"}  # fmt: skip
+
+
+def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_effect_s_part_once(bench):
+    """"3 min of computing" stood there where nothing was computed; "crank 1 at disc 1" in the headline and below it."""
+    folder = opened(bench.folder)
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    effect = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "candidates": ["crank_lobe_errors.crank_1"], "instead": [], "parameters": [],
+              "share": "explains", "error": "", "held": ""}  # fmt: skip
+    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank lobe errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
+    folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
+    folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
+    folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9})
+    bench.view("diagnose")
+    head = bench.page.locator("#verdict p").first
+    head.get_by_text("found again: made ").wait_for()
+    assert "Nov 2023" in head.inner_text() and head.inner_text().endswith("in 3 min of computing")
+    assert bench.page.locator("#verdict").inner_text().count("crank 1 at disc 1") == 1
+    folder.remember("jobs/diagnose/result", answer | {"found": None})
+    bench.page.reload()
+    head.get_by_text("one effect · 3 min of computing").wait_for()
+
+
 def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     """Adding an effect took minutes without a word; a diagnosis told of its step alone."""
     folder = opened(bench.folder)
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
-    part = {"cards": [], "sections": [], "warnings": []}
-    answer = {"model": "RV20E-121", "tone": "fair", "verdict": "stopped", "headline": "h", "reason": "r", "seconds": 9.0, "effects": [], "confusable": [],
-              "base_off": [], "left": "", "sizes": "", "together": "", "stand_ins": [], "rejected": [{"name": "needle_clearance"}], "laws": [], "page": part,
-              "doubts": [], "command": "c"}  # fmt: skip
+    answer = ANSWER | {"rejected": [{"name": "needle_clearance"}]}
     folder.remember("jobs/diagnose/result", answer)
     far = time.time() + 3600.0
 

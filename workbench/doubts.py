@@ -9,6 +9,7 @@ from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.repetition_words import words
 from discrepancy.page.amounts import with_titles
 from discrepancy.repetitions import outlying
+from workbench.page_words import on_page
 
 if TYPE_CHECKING:
     from discrepancy.campaign.findings import Finding
@@ -22,7 +23,7 @@ OF_NUMBERS = ("implausible scale", "impossible torque", "outlying samples", "out
 def as_told(finding: "Finding") -> dict[str, Any]:
     """With the column that it is about and, where a click mends it, the role that the column takes then and that role's title; ``open``: see ``OF_NUMBERS``."""
     of = finding.of
-    told = {"level": finding.level, "text": with_titles(finding.text), "remedy": of.remedy(on_page=True) if of and of.role else finding.remedy,
+    told = {"level": finding.level, "text": with_titles(finding.text), "remedy": of.remedy(on_page=True) if of and of.role else on_page(finding.remedy),
             "open": finding.code in OF_NUMBERS}  # fmt: skip
     return told | ({"column": of.column, "role": of.role, "title": TITLES.get(of.role, "")} if of else {})
 
@@ -38,4 +39,4 @@ def apart(warnings: Sequence[str], campaign: "Campaign", more: "Sequence[Finding
     told = {text for finding in found for text in (finding.sentence, f"{finding.text}; {finding.remedy}")}
     # Of a repetition a result says besides what the model makes of it.
     repetitions = tuple(words(repetition) for repetition in outlying(campaign.records))
-    return [as_told(finding) for finding in found], [with_titles(text) for text in warnings if text not in told and not text.startswith(repetitions)]
+    return [as_told(finding) for finding in found], [on_page(with_titles(text)) for text in warnings if text not in told and not text.startswith(repetitions)]

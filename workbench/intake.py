@@ -1,7 +1,6 @@
 """In: what the dropped files are taken for and why, corrected by what was clicked, saved as the command line's campaign.toml."""
 
 import hashlib
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -13,7 +12,7 @@ import numpy as np
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import Proposal, propose
-from discrepancy.campaign.guess.run import guessed_run
+from discrepancy.campaign.guess.run import NothingFits, guessed_run
 from discrepancy.campaign.guess.table import table_of
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
@@ -28,6 +27,7 @@ from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
 from workbench.form import exactly, factor, number
+from workbench.page_words import on_page
 
 # Points of the little curve that shows what a column looks like, and columns of a file that are shown.
 POINTS, MOST_COLUMNS = 80, 40
@@ -168,7 +168,8 @@ def fault_of(folder: Folder) -> str:
 
 def in_words(folder: Folder, fault: InputFault) -> str:
     """A fault of the command without its options and without the folder's own path."""
-    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", " "), str(fault)).replace(f"{folder.root}/", "")
+    text = fault.on_page if isinstance(fault, NothingFits) else on_page(str(fault))
+    return text.replace(f"{folder.root}/", "")
 
 
 def view(folder: Folder) -> dict[str, Any]:

@@ -1,7 +1,6 @@
 """Reducer: one of the library, a file of the folder, or completed from a few numbers; drawn to scale, every number with unit, source and range."""
 
 import math
-import re
 import shlex
 import tomllib
 from collections.abc import Mapping
@@ -29,6 +28,7 @@ from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
+from workbench.page_words import on_page
 from workbench.told import figure_data, page_data
 
 # What the form asks for: name, what it is, unit, whether it must be given.
@@ -166,5 +166,5 @@ def rows_of(completion: Completion) -> list[dict[str, Any]]:
 
 
 def plainly(text: str) -> str:
-    """The fault of an option in the words of a form."""
-    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", " "), text)
+    """The fault of an option in the words of the form."""
+    return on_page(text, {name: label for name, label, _, _ in ASKED})

@@ -26,6 +26,7 @@ from reducers.library import available
 from workbench import jobs
 from workbench.folder import Folder
 from workbench.guard import REPORT_POLICY, Guard, new_token
+from workbench.page_words import on_page
 
 STATIC = Path(__file__).with_name("static")
 # A dropped file [bytes]: as much as the readers take.
@@ -254,7 +255,7 @@ def said(handler: Handler) -> Handler:
         try:
             return await handler(request)
         except (InputFault, RunFault) as fault:
-            return JSONResponse({"fault": str(fault)}, 400)
+            return JSONResponse({"fault": on_page(str(fault))}, 400)
         except OSError as problem:
             return JSONResponse({"fault": f"{problem}; look at the folder and its disk"}, 400)
         except Exception as problem:  # noqa: BLE001 - a fault of the program is said, and the server goes on

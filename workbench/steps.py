@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import time
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -15,6 +16,7 @@ from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
 from workbench.makers import makers
+from workbench.page_words import on_page
 from workbench.told import in_words, page_data, write_json
 
 if TYPE_CHECKING:
@@ -73,11 +75,11 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
 
 
 def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    """What was known by then is an answer, too."""
+    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970]."""
     from discrepancy.remembered import diagnosed
     from discrepancy.verdict import AnswerSoFar
 
-    stopped = False
+    stopped, began = False, time.time()
     with task("diagnosing"):
         file, campaign = inputs(folder, given)
         try:
@@ -86,7 +88,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer, stopped = stop.answer, True
     with task("drawing the page"):
         report(answer, place)
-        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose")}
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"),
+                 "found": answer.made if answer.made < began else None}  # fmt: skip
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
@@ -95,8 +98,9 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
     from discrepancy.left_sizes import left_sizes
     from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
-    from discrepancy.page.answer import headline
+    from discrepancy.page.answer import headline, reason_text
     from discrepancy.page.write import page_of
+    from discrepancy.verdict import added_of, instead_of
     from discrepancy.wording import (
         base_texts,
         error_text,
@@ -117,7 +121,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     for effect in answer.effects:
         effects.append({
             "name": effect["name"], "title": effect["title"], "place": variant_text(effect),
-            "candidates": effect["candidates"], "share": shares_text(answer, effect),
+            "candidates": added_of(effect), "instead": instead_of(effect), "share": shares_text(answer, effect),
             "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
@@ -125,7 +129,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
     return {
         "headline": headline(answer),
-        "verdict": answer.verdict, "tone": tone(answer), "reason": answer.reason, "effects": effects, "confusable": answer.confusable,
+        "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,
         "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),
@@ -166,7 +170,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
     write_json(place / "result.json", {
-        "verdict": with_titles(run.verdict), "rivals": run.rivals, "asked": asked, "proposals": proposals,
+        "verdict": on_page(with_titles(run.verdict)), "rivals": run.rivals, "asked": asked, "proposals": proposals,
         "stakes": {with_titles(where): at_stake for where, at_stake in run.stakes().items()}, "cost_unit": run.cost_unit,
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip

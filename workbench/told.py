@@ -11,15 +11,16 @@ from fmu_src.checked_file import write_text
 from pages.content import Page, Table
 from pages.look import Figure
 from pages.render import described
+from workbench.page_words import on_page
 
 
 def page_data(page: Page) -> dict[str, Any]:
-    """The same content as the page's file has."""
+    """The same content as the page's file has, in words of the workbench."""
     return {
-        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": page.finding, "warnings": page.warnings,
-        "cards": [asdict(card) for card in page.cards],
+        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": on_page(page.finding), "warnings": page.warnings,
+        "cards": [asdict(card) | {"note": on_page(card.note)} for card in page.cards],
         "sections": [
-            {"id": s.id, "title": s.title, "lead": s.lead, "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
+            {"id": s.id, "title": s.title, "lead": on_page(s.lead), "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
             for s in page.sections
         ],
     }  # fmt: skip
@@ -44,15 +45,14 @@ def write_json(place: Path, content: object) -> None:
 
 @cache
 def names() -> re.Pattern[str]:
-    """Names of effects, with their form, and of quantities; not where they are part of a longer name or of a key."""
+    """Names of quantities; not where they are part of a longer name or of a key."""
     from discrepancy.campaign.quantities import QUANTITIES
-    from discrepancy.model_file import every_effect
 
-    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted({*every_effect(), *QUANTITIES}, key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted(QUANTITIES, key=len, reverse=True))})(?!\w)")
 
 
 def in_words(text: str) -> str:
     """What is told on the way, its effects and signals called as the page calls them elsewhere."""
-    from discrepancy.page.amounts import effect_title, with_titles
+    from discrepancy.page import amounts
 
-    return names().sub(lambda name: effect_title(name[0]), with_titles(text))
+    return names().sub(lambda name: amounts.signal_title(name[0]), amounts.in_words(text))

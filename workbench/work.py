@@ -14,6 +14,7 @@ from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import Task, told_to
 from workbench import jobs
 from workbench.folder import Folder
+from workbench.page_words import on_page
 from workbench.told import in_words
 
 # How often the folder is told how far it is [s], and how many lines of results on the way are kept.
@@ -100,7 +101,7 @@ def main(root: str, kind: str) -> int:
     except KeyboardInterrupt:
         teller.close(jobs.STOPPED)
     except (InputFault, RunFault, OSError) as fault:
-        teller.close(jobs.FAILED, str(fault))
+        teller.close(jobs.FAILED, on_page(str(fault)))
         return 1
     except BaseException as problem:
         traceback.print_exc()

@@ -41,6 +41,7 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
 def refusal(options: argparse.Namespace, answer: "Answer") -> str:
     """Why nothing is added unasked, and the command lines that add what comes into question."""
     from discrepancy.inference.verdict import BASE_OFF
+    from discrepancy.verdict import added_of
 
     found = answer.diagnosis
     start = f"the diagnosis says {answer.verdict!r} ({found.reason}): nothing is added by itself"
@@ -97,12 +98,9 @@ def first_to_add(answer: "Answer") -> "dict[str, Any] | None":
 
 def named_in(answer: "Answer") -> list[str]:
     """Candidates of all that a diagnosis names: effects, and numbers of the base model beside them."""
+    from discrepancy.verdict import added_of
+
     return [candidate for effect in answer.effects for candidate in added_of(effect)] + numbers_of(answer)
-
-
-def added_of(effect: "dict[str, Any]") -> list[str]:
-    """Candidates of an effect that are added: all forms that were fitted together, of those that look alike the one whose values are told."""
-    return list(effect["candidates"]) if effect["forms"] else effect["candidates"][:1]
 
 
 def numbers_of(answer: "Answer") -> list[str]:

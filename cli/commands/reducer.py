@@ -44,6 +44,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def solve(options: argparse.Namespace) -> int:
     """``rvwear solve``: the plant alone over one crank turn."""
     from cli import screen
+    from studies.effects_set import effects_set
     from studies.figure_units import RUNNING
     from studies.rigid import rigid_supports
     from studies.turn import crank_turn
@@ -56,7 +57,7 @@ def solve(options: argparse.Namespace) -> int:
     if options.json:
         screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures | beyond)
     else:
-        screen.figures(f"{reducer.name} over one crank turn", found.figures, how=RUNNING)
+        screen.figures(f"{reducer.name} over one crank turn{effects_set(reducer, settings)}", found.figures, how=RUNNING)
         say_rigid(rigid_supports(reducer, settings))
     export(options, found.dataset)
     return 0
@@ -67,6 +68,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     import math
 
     from cli import screen
+    from studies.effects_set import effects_set
     from studies.figure_units import HELD, WIDTHS
     from studies.hysteresis import hysteresis as measure
     from studies.rigid import rigid_supports
@@ -85,7 +87,8 @@ def hysteresis(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name} | figures | curve | beyond)
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
-        screen.figures(f"{reducer.name}: torque up and down, input locked, {where}", figures, how=f"{HELD}\n{WIDTHS}")
+        about = f"{reducer.name}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
+        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}")
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
@@ -115,6 +118,7 @@ def modes(options: argparse.Namespace) -> int:
     from cli import screen
     from cli.show.modes import show_modes
     from orchestrator.settings import parse_setting
+    from studies.effects_set import effects_set
     from studies.modes import modes as natural_modes
 
     check_exports(options)
@@ -130,7 +134,8 @@ def modes(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name} | ({"cases": told} if options.every else told[0]) | beyond)
     else:
         for (held, loaded), some in found.items():
-            show_modes(f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}", some)
+            about = f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}{effects_set(reducer, settings)}"
+            show_modes(about, some)
     if options.export:
         from studies.turn import mode_table
 

@@ -72,7 +72,12 @@ class Diagnostician:
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the large tables of its tests, which are made anew where they are asked for."""
-        return {k: v for k, v in self.__dict__.items() if k != "columns"}
+        kept = {k: v for k, v in self.__dict__.items() if k != "columns"}
+        # Of the clock what was spent: another process has another one, and hours between are no computing.
+        return kept | {"started": self.started - time.perf_counter()}
+
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        self.__dict__.update(kept | {"started": time.perf_counter() + kept["started"]})
 
     # steps --------------------------------------------------------------------------------
     def prepare(self) -> Localisation:

@@ -1,11 +1,14 @@
 """SI values in the units of a bench, for axes and for text."""
 
 import re
+from functools import cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.model_file import every_effect
+from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, largest, of_estimate, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
@@ -71,6 +74,17 @@ def signal_title(signal: str) -> str:
 def with_titles(text: str) -> str:
     """A text whose signals stand as ``wear_depth[surface=pin]``, with their words instead."""
     return re.sub(r"[a-z_]+\[[a-z_]+=[^\]]*\]", lambda match: signal_title(match[0]), text)
+
+
+@cache
+def effect_names() -> re.Pattern[str]:
+    """Names of effects with their form, and of numbers of the base model; not where they are part of a longer name or of a key."""
+    return re.compile(rf"(?<![\w.])(?:{'|'.join(sorted({*every_effect(), BASE}, key=len, reverse=True))})(?:\.[a-z]\w*)?(?!\w)")
+
+
+def in_words(text: str) -> str:
+    """A text whose effects and signals stand as their keys, with their words instead: what is told on the way, and why a verdict is what it is."""
+    return effect_names().sub(lambda name: effect_title(name[0]), with_titles(text))
 
 
 def with_minus(text: str) -> str:

@@ -8,7 +8,7 @@ from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
-from discrepancy.page.amounts import signal_title
+from discrepancy.page.amounts import effect_title, in_words, signal_title
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
@@ -60,7 +60,7 @@ def sentence(answer: Answer) -> str:
         share = f"It {wording.share_text(answer, best['share_explained'])}{f'; {error}' if error else ''}"
         said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
     if answer.verdict in (UNKNOWN, SEVERAL):
-        said += f" ({answer.reason[:1].upper()}{answer.reason[1:]}.)"
+        said += f" ({reason_text(answer)[:1].upper()}{reason_text(answer)[1:]}.)"
     if answer.verdict == NONE and (figure := answer.reason.partition("; ")[2]):
         said += f" {figure[:1].upper()}{figure[1:]}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
@@ -79,10 +79,15 @@ def headline(answer: Answer) -> str:
         SEVERAL: f"The model lacks several effects together: {listed(names)}.",
         INCOMPLETE: f"{part_named(answer, names)} part of what the model lacks, but something else is left {answer.left_over}.",
         BASE_OFF: f"No effect is missing; the base model itself is off: {listed(off)}.",
-        STOPPED: f"The diagnosis was interrupted: {answer.reason}. What stands here is what was known by then, not an answer to the question.",
+        STOPPED: f"The diagnosis was interrupted: {reason_text(answer)}. What stands here is what was known by then, not an answer to the question.",
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     return texts.get(answer.verdict, answer.verdict)
+
+
+def reason_text(answer: Answer) -> str:
+    """What the verdict rests on, or how far an interrupted diagnosis came."""
+    return in_words(answer.reason)
 
 
 def part_named(answer: Answer, names: list[str]) -> str:
@@ -100,7 +105,7 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
     return Card(
         "Error on unused conditions" if by_runs else "Error on conditions left out in turn",
         number(best["held_out_error_after"]),
-        f"with {' + '.join(named(e) for e in judged)}" + ("; the samples are off by less than their noise" if drowned else ""),
+        f"with {' + '.join(effect_title(e['name']) for e in judged)}" + ("; the samples are off by less than their noise" if drowned else ""),
         number(best["held_out_error_before"]),
         "in the patterns that matter" if drowned else "times noise",
         "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
@@ -109,14 +114,15 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
 
 
 def cards(answer: Answer) -> list[Card]:
+    """In which an effect goes by its name alone: which form of it, and at which part, the headline says."""
     diagnosis = answer.diagnosis
-    made = [Card("Verdict", answer.verdict, answer.reason, tone=wording.tone(answer), why=whys.of_verdict(answer))]
+    made = [Card("Verdict", answer.verdict, reason_text(answer), tone=wording.tone(answer), why=whys.of_verdict(answer))]
     if answer.effects:
         best, together = answer.effects[0], wording.fitted_together(answer)
         share = wording.percent(answer, diagnosis.captured)
-        alone = ", ".join(f"{named(e)} {wording.percent(answer, e['share_alone'])}" for e in answer.effects) if together else ""
+        alone = ", ".join(f"{effect_title(e['name'])} {wording.percent(answer, e['share_alone'])}" for e in answer.effects) if together else ""
         title = "Share of the misfit explained" + (" together" if together else "")
-        made.append(Card(title, share, f"alone: {alone}" if together else f"best: {named(best)}", why=whys.of_share(answer)))
+        made.append(Card(title, share, f"alone: {alone}" if together else f"best: {effect_title(best['name'])}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
             made.append(unused(answer, best))
     made.append(

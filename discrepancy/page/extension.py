@@ -6,6 +6,7 @@ from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
+from discrepancy.page.changed_figures import changed_figures
 from discrepancy.wording import signals_left
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -29,7 +30,7 @@ def extension_page(result: Extension) -> Page:
         f"judged on campaign {step.campaign}",
         finding,
         cards(step),
-        [signals_section(step), ladder_section(result.file), parameters(result.file)],
+        [*changed_figures(result), signals_section(step), ladder_section(result.file), parameters(result.file)],
         warnings,
     )
 

@@ -2,7 +2,7 @@
 
 import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
-import { offered, refusal } from "./refused.js";
+import { alike, offered, refusal } from "./refused.js";
 
 // Where it is told what is being done, once it is.
 const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`, "aria-live": "off" });
@@ -61,18 +61,19 @@ export function nextPart(bag) {
         command(next.command),
       ]
     : null;
-  return h(
-    "section",
-    {},
-    h("h2", {}, "What to measure next"),
-    h(
-      "div",
-      { class: "panel" },
-      sheet,
-      h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
-      progressOf("next"),
-    ),
-  );
+  const ask = [
+    sheet,
+    h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
+  ];
+  // Of an adequate model nothing need be asked; what was asked all the same is seen.
+  if (answer.verdict === "none")
+    return h(
+      "section",
+      {},
+      h("h2", {}, "Nothing is left to explain: no further experiment is asked for"),
+      h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
+    );
+  return h("section", {}, h("h2", {}, "What to measure next"), h("div", { class: "panel" }, ask, progressOf("next")));
 }
 
 export function addPart(bag) {
@@ -81,6 +82,7 @@ export function addPart(bag) {
   // What a former model lacks may be in this one already.
   const busy = context.busy() || (old && `${old} Diagnose that first.`);
   const options = offered(answer),
+    others = alike(answer),
     adequate = answer.verdict === "none";
   if (!options.length) return adequate ? h("section", {}, h("h2", {}, NOTHING)) : null;
   const add = (name) => context.start("extend", { model: answer.model, effects: name.split(" + "), anyway });
@@ -102,7 +104,7 @@ export function addPart(bag) {
       { class: "row" },
       options.length > 1
         ? choose(
-            options.map((o) => [o, effectName(o)]),
+            options.map((o) => [o, effectName(o) + (others.includes(o) ? ", which looks alike" : "")]),
             choice,
             (v) => {
               choice = v;
@@ -144,7 +146,8 @@ export function addPart(bag) {
               : refusal(answer, extension, busy, add),
             extension.left ? h("p", { class: "fair", id: "left" }, extension.left) : null,
             cards(extension.page.cards),
-            sections(extension.page.sections),
+            // Stiffness, lost motion and the like are what one asks first.
+            sections(extension.page.sections, extension.page.sections[0]?.id === "figures" ? 1 : 0),
             command(extension.command),
           ]
         : null,

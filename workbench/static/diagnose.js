@@ -11,6 +11,13 @@ import { dimmed, past } from "./past.js";
 // What a diagnosis is called that begins at the beginning, or goes on; its steps stand within.
 const WHOLE = ["the whole diagnosis", "the rest of the diagnosis"];
 
+// What the answer took; one of the same model and measurements that is kept is found again, and nothing is computed then.
+function took(answer) {
+  const spent = `${duration(answer.seconds)} of computing`;
+  if (!answer.found) return spent;
+  return `found again: made ${new Date(1000 * answer.found).toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short" })} in ${spent}`;
+}
+
 export function show(root, context) {
   let answer = null,
     next = null,
@@ -124,7 +131,7 @@ export function show(root, context) {
         h(
           "div",
           { class: `panel verdict ${answer.tone}`, id: "verdict" },
-          h("p", { class: "quiet small" }, `verdict on ${answer.model}: ${answer.verdict} · ${duration(answer.seconds)} of computing`),
+          h("p", { class: "quiet small" }, `verdict on ${answer.model}: ${answer.verdict} · ${took(answer)}`),
           h("h1", {}, answer.headline),
           answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
           answer.effects.map(effectOf),
@@ -147,11 +154,12 @@ export function show(root, context) {
     doing();
   }
 
+  // Which form it is, and at which part, is said once above.
   const effectOf = (e) =>
     h(
       "div",
       { style: { "margin-top": "8px" } },
-      h("h3", {}, words(e.name) + (e.place ? ` (${e.place})` : "")),
+      h("h3", {}, words(e.name) + (e.place && !answer.headline.includes(`(${e.place})`) ? ` (${e.place})` : "")),
       e.parameters.map((p) =>
         h(
           "div",

@@ -74,8 +74,11 @@ export function figure(f) {
         f.labels.map((text, i) => h("option", { value: i }, text)),
       )
     : null;
+  const tools = () => Promise.all([script("plotly.js"), script("narrow.js")]);
+  // Before it is seen, so that it can be printed without a wait; what fails is said where it is drawn.
+  tools().catch(() => {});
   const draw = async () => {
-    await Promise.all([script("plotly.js"), script("narrow.js")]);
+    await tools();
     const choice = select ? f.choices[Number(select.value)] : null;
     const data = choice ? f.data.map((trace, i) => ({ ...trace, ...choice.traces[i] })) : f.data;
     const fitting = window.narrowed(f, data, { ...f.layout, ...(choice?.layout ?? {}) }, place.clientWidth);
@@ -190,6 +193,11 @@ function coloured(layout) {
   for (const a of layout.annotations ?? []) if (a.font?.color || !a.font) a.font = { ...a.font, color: quiet };
   return layout;
 }
+
+// Figures are drawn as they are scrolled to; paper has no scrolling, and waits for nothing that is not at hand.
+addEventListener("beforeprint", () => {
+  for (const place of document.querySelectorAll("[data-figure]")) if (!place.childElementCount && place.clientWidth) place.redraw();
+});
 
 export function recolour(root) {
   for (const place of root.querySelectorAll("[data-figure]")) if (place.childElementCount) place.redraw();

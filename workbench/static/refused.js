@@ -4,14 +4,21 @@ import { effectName, h } from "./dom.js";
 
 const MOST_TURNED_DOWN = 4;
 
-// Names as they are asked for: what was named together first, then each of it alone.
+// Names as they are asked for: what was named together first, then each of it alone, then all with one of it in a form or place that looks alike.
 export function offered(answer) {
   const named = answer.effects.flatMap((e) => e.candidates),
     off = answer.base_off.map((b) => `base.${b.name.split(" ")[0]}`);
-  if (answer.confusable.length) return answer.effects.map((e) => e.candidates[0]);
+  if (answer.confusable.length) return [...new Set([...answer.effects.map((e) => e.candidates[0]), ...alike(answer)])];
   const together = named.length ? named : off;
-  if (together.length) return [...new Set([together.join(" + "), ...together])];
+  if (together.length) return [...new Set([together.join(" + "), ...together, ...alike(answer)])];
   return answer.rejected.slice(0, 5).map((r) => r.name);
+}
+
+// What this campaign cannot tell from what is offered first; effects that are alternatives themselves stand alone.
+export function alike(answer) {
+  return answer.effects.flatMap((e) =>
+    (e.instead ?? []).map((other) => (answer.confusable.length ? other : answer.effects.flatMap((one) => (one === e ? [other] : one.candidates)).join(" + "))),
+  );
 }
 
 // ``add(name)`` tries another one.

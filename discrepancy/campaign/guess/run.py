@@ -40,6 +40,17 @@ ABOVE = "a line above the table"
 NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
+class NothingFits(InputFault):
+    """A file whose columns are no quantity of a campaign; ``on_page`` says what to do where no option can be given."""
+
+    def __init__(self, text: str, file: str):
+        quantities = ", ".join(QUANTITIES)
+        words = quantities.replace("_", " ")
+        super().__init__(f"{text}; give units by --unit 'COLUMN=UNIT', what it is by --quantity '{file}=QUANTITY' ({quantities}), or a column by"
+                         " --column value=COLUMN")  # fmt: skip
+        self.on_page = f"{text}; write units into the heads of its columns, and what was measured into its name or a head ({words}), and drop it again"
+
+
 @dataclass(frozen=True)
 class Entry:
     """A column of a run, with the keys that go with it."""
@@ -101,10 +112,7 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         found = [a for a in found if a.quantity == wanted]
     if not found:
         holds = ", ".join(f"{c.name} [{c.stated[0] if c.stated else '?'}]" for c in columns) or "no column of numbers"
-        raise InputFault(
-            f"{path.name}: {holds}: no quantity{f' {wanted}' if wanted else ''} of a campaign fits; give units by --unit 'COLUMN=UNIT', what it is by"
-            f" --quantity '{path.name}=QUANTITY' ({', '.join(QUANTITIES)}), or a column by --column value=COLUMN"
-        )
+        raise NothingFits(f"{path.name}: {holds}: no quantity{f' {wanted}' if wanted else ''} of a campaign fits", path.name)
     found = as_stated(found, stated)
     best = found[0]
     quantity = quantity_guess(found, wanted, path)
