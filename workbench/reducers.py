@@ -22,8 +22,8 @@ from reducers.completion.given import Given, given_with
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
+from studies.catalogue_lost_motion import GAP, tested
 from studies.catalogue_stiffness import as_stiff_as
-from studies.hysteresis import hysteresis
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
@@ -120,22 +120,27 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
         write_text(place, text)
         saved = place.name
     page = page_of(completion, reducer, [])
-    page = replace(page, cards=[*page.cards, *tested(reducer, stiffness, known.lost_motion)], warnings=[*map(plainly, page.warnings)])
+    cards = test_cards(reducer, completion.numbers[GAP].value, stiffness, known.lost_motion)
+    page = replace(page, cards=[*page.cards, *cards], warnings=[*map(plainly, page.warnings)])
     words = [*words_of(known), *(["--stiffness", typed(stiffness)] if stiffness is not None else []), "--name", name]
     told = {"name": name, "saved": saved, "findings": findings(reducer)}
     return {"page": page_data(page), "numbers": rows_of(completion), **told, "command": shlex.join(words)}
 
 
-def tested(reducer: Reducer, stiffness: float | None, lost_motion: float) -> list[Card]:
+def test_cards(reducer: Reducer, gap: float, stiffness: float | None, lost_motion: float) -> list[Card]:
     """What the stiffness test reads of it, beside what was asked for: nobody keeps a stiffness that was never looked at."""
     asked = "not given: made by rules alone, hold it against the catalogue" if stiffness is None else f"{stiffness:.4g} asked for"
     try:
-        found = hysteresis(reducer, [])
+        found = tested(reducer, gap, lost_motion)
     except RunFault as fault:
         return [Card("torsional stiffness", "unknown", f"{asked}; the test fails: {fault}")]
+    if found.gap is None:
+        told = f"{found.least:.3g} without a gap of the flanks"
+    else:
+        told = f"a gap of the flanks of {found.gap:g} µm makes it that, {gap:.3g} µm are taken"
     return [
-        Card("torsional stiffness", f"{found.stiffness_Nm_per_arcmin:.4g}", asked, unit="N·m/arcmin"),
-        Card("lost motion", f"{found.lost_motion_arcmin:.3g}", f"{lost_motion:g} of the catalogue bound the flanks' gaps alone", unit="arcmin"),
+        Card("torsional stiffness", f"{found.stiffness:.4g}", asked, unit="N·m/arcmin"),
+        Card("lost motion", f"{found.lost_motion:.3g}", f"{lost_motion:g} of the catalogue; {told}", unit="arcmin"),
     ]
 
 
