@@ -348,11 +348,10 @@ def test_many_columns_without_names_are_asked(tmp_path):
 
 def test_the_reducer_is_asked_for(tmp_path, capsys):
     write(tmp_path, "plain")
-    assert main(["campaign", "from", str(tmp_path), "--json"]) == 2
-    assert "--reducer: say which reducer was measured: " in capsys.readouterr().err
-    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--json"]) == 1
-    told = json.loads(capsys.readouterr().out)
-    assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer")
+    for dry in (["--dry-run"], []):
+        assert main(["campaign", "from", str(tmp_path), "--json", *dry]) == 1
+        told = json.loads(capsys.readouterr().out)
+        assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer") and (tmp_path / "campaign.toml").is_file() == (not dry)
 
 
 def test_folders_below_count_and_names_that_fit_nothing_are_refused(tmp_path):
@@ -395,7 +394,7 @@ def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, 
     assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)
 
 
-def test_a_reducer_named_above_the_tables_is_proposed(tmp_path):
+def test_a_reducer_named_above_the_tables_is_proposed(tmp_path, capsys):
     """The name is no answer: it may be the rigid one that is meant, or a file of one's own."""
     lines = ["试验台,3号", "减速器型号,RV-20E-121", "", "输入转角(°),输出转角(°),传动误差(″)", *(f"{121 * k},{k},{np.sin(k):.3f}" for k in range(60))]
     file = tmp_path / "传动误差_84Nm_600rpm_第1次.csv"
@@ -403,6 +402,13 @@ def test_a_reducer_named_above_the_tables_is_proposed(tmp_path):
     proposal = propose([file], Wishes(None))
     [need] = [need for need in proposal.needs if "which reducer" in need.text]
     assert need.text.endswith("lines above the tables say RV20E-121") and need.remedy.startswith("--reducer RV20E-121 ")
+    assert proposal.named == "RV20E-121" and not propose([file], Wishes("RV20E-121-rigid")).needs
+    [doubt] = [doubt for doubt in propose([file], Wishes("BX-40E")).doubts if doubt.place == "campaign"]
+    assert doubt.text == "lines above the tables say RV20E-121, not BX-40E" and doubt.remedy.startswith("--reducer RV20E-121")
+    # The command takes it, and says so.
+    assert main(["campaign", "from", str(file), "--output", str(tmp_path / "made")]) == 0
+    assert "reducer RV20E-121: as lines above the tables say" in capsys.readouterr().out
+    assert load_campaign(tmp_path / "made").reducer.name == "RV20E-121"
     # The output's angle by its name, with the input's beside it: nobody has to be asked.
     assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "output"
     said = ("i=121", ", ratio 121", " 1:121", "; i = 121", ", Übersetzung 121", ", rapport de réduction: 1/121", "; rapporto di riduzione;121", " 减速比：121")

@@ -30,7 +30,8 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
     )
     command.add_argument("files", nargs="+", metavar="FILE", help="measurement files, or folders that hold some (those below count, results and fmus do not)")
     command.add_argument("--output", metavar="FOLDER", help="where campaign.toml goes (default: the folder of the files); nothing is overwritten")
-    completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + " (asked for)"), reducer_completions)
+    usual = " (default: the one that lines above the tables name, else it is asked for)"
+    completed_by(command.add_argument("--reducer", help=REDUCER_HELP.rpartition(" (")[0] + usual), reducer_completions)
     command.add_argument(
         "--names", action="append", default=[], metavar="PATTERN",
         help="what file names say, for instance 'te_{load}Nm_{speed}rpm_{replicate}'; also {input_speed} {output_speed} {temperature} {hours} {locked_at}"
@@ -71,11 +72,12 @@ def run_from(options: argparse.Namespace) -> int:
     from discrepancy.plausible import scale_doubts
 
     files = [Path(file) for file in options.files]
-    reducer = options.reducer or asked(options)
-    wishes = wishes_of(options, reducer)
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)
     with task("reading the files"):
-        proposal = propose(files, wishes, name_of(folder))
+        proposal = propose(files, wishes_of(options, options.reducer), name_of(folder))
+    if not options.reducer and (reducer := proposal.named or asked(options)):
+        proposal = propose(files, wishes_of(options, reducer), name_of(folder))
+    with task("checking what was read"):
         campaign = checked(proposal) if proposal.reducer else None
         findings = [found for search in (copied, samples) for found in search(Design(campaign))] + angle_doubts(campaign) if campaign else []
     if campaign:
@@ -125,11 +127,9 @@ def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
 
 
 def asked(options: argparse.Namespace) -> str | None:
-    """The reducer, from whoever sits at the terminal; None in a dry run, which may say that it is missing."""
-    if options.dry_run:
+    """The reducer, from whoever sits at the terminal; None where nobody does, and in a dry run, which says that it is missing."""
+    if options.dry_run or options.json or not sys.stdin.isatty():
         return None
-    if options.json or not sys.stdin.isatty():
-        raise InputFault(f"--reducer: say which reducer was measured: {REDUCER_HELP.rpartition(' (')[0]}")
     return input(f"Which reducer was measured ({REDUCER_HELP.rpartition(' (')[0]})? ").strip() or None
 
 

@@ -39,6 +39,8 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
         by_column = said_by_columns([run.guessed for run in proposal.runs if run.condition == name], stated)
         said = [f"{key} {value}" for key, value in stated.items()] + [f"{key} {' and '.join(levels)} by its column" for key, levels in by_column.items()]
         out.print(f"condition {name}: {', '.join(said) or 'nothing is said'}{kept}")
+    if proposal.reducer and proposal.reducer == proposal.named:
+        out.print(f"reducer {proposal.reducer}: as lines above the tables say; --reducer takes another, or a reducer file")
     for doubt in proposal.doubts:
         out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
     for finding in findings:

@@ -34,7 +34,7 @@ from discrepancy.campaign.readers import ENDINGS
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.problem import MEAN
 from fmu_src.faults import InputFault, nearest
-from reducers.library import named_in
+from reducers.library import available, named_in
 from reducers.reducer import load_reducer
 
 
@@ -53,7 +53,8 @@ class PlacedRun:
 class Proposal:
     """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be
     given before a model can be held against the campaign; ``unplaced``: of the doubts those of loops of which nobody says where the input was
-    locked; ``angle_of``: whose angle transmission errors stand over, if over one that turns as the output does."""
+    locked; ``angle_of``: whose angle transmission errors stand over, if over one that turns as the output does; ``named``: the reducer of the library
+    that lines above the tables name."""
 
     name: str
     reducer: str | None
@@ -66,10 +67,11 @@ class Proposal:
     needs: tuple[Doubt, ...]
     unplaced: tuple[Doubt, ...]
     angle_of: Guess[str] | None
+    named: str | None
 
     def as_json(self) -> dict[str, Any]:
         return {
-            "name": self.name, "reducer": self.reducer, "data": str(self.data), "conditions": self.conditions, "joined": self.joined,
+            "name": self.name, "reducer": self.reducer, "named": self.named, "data": str(self.data), "conditions": self.conditions, "joined": self.joined,
             "held_out": {name: guess.as_json() for name, guess in self.held_out.items()}, "angle_of": self.angle_of and self.angle_of.as_json(),
             "runs": [
                 {
@@ -119,9 +121,12 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     in_conditions = [(run.condition, run.guessed) for run in runs]
     doubts += different_in_columns(in_conditions, conditions)
     unplaced = positions_asked(in_conditions, conditions)
+    named = named_in(line for run in guessed for line in run.lines)
+    doubts += another_named(named, wishes)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,
-        held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, wishes), tuple(unplaced), angle_of,
+        held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, named, wishes), tuple(unplaced), angle_of,
+        named,
     )  # fmt: skip
 
 
@@ -279,11 +284,18 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
     return [Doubt(files[0] + (f" and {len(files) - 1} more" if len(files) > 1 else ""), text, remedy) for (text, remedy), files in places.items()]
 
 
-def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[str, str]], wishes: Wishes) -> tuple[Doubt, ...]:
+def another_named(named: str | None, wishes: Wishes) -> list[Doubt]:
+    """A reducer of the library that is not the one whose name stands above the tables; a rigid one of that name is."""
+    given = wishes.reducer
+    if not named or given not in available() or str(given).startswith(named):
+        return []
+    return [Doubt("campaign", f"lines above the tables say {named}, not {given}", f"--reducer {named}, if they are right")]
+
+
+def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[str, str]], named: str | None, wishes: Wishes) -> tuple[Doubt, ...]:
     """What has to be given before a model can be held against the campaign.  ``runs``: condition and run."""
     found = lacking(runs, conditions)
     if not wishes.reducer:
-        name = named_in(line for _, run in runs for line in run.lines)
-        text = "which reducer it is has to be said" + (f"; lines above the tables say {name}" if name else "")
-        found.append(Doubt("campaign", text, f"--reducer {name or OPEN} (rvwear reducer list shows all), or a reducer file"))
+        text = "which reducer it is has to be said" + (f"; lines above the tables say {named}" if named else "")
+        found.append(Doubt("campaign", text, f"--reducer {named or OPEN} (rvwear reducer list shows all), or a reducer file"))
     return tuple(found)
