@@ -30,6 +30,8 @@ UNITS = tuple(name for name in KERNEL_PACKAGES if (ROOT / name / "effects").is_d
 WHERE = " or ".join(f"DIR/{unit}/" for unit in UNITS)
 OWN = "own states"
 LOOKS_LIKE_EFFECT = re.compile(r"^(EFFECT\b|from fmu_src\.effect\b)", re.MULTILINE)
+# Runs for the whole of a run; of the inputs that of the surroundings at its start alone may be read there (docs/effects.md).
+ONCE, TEMPERATURE = "prepare", "temperature"
 # What an operator of ALLOWED stands for.
 SAME = {"+=": ("+=", "-="), "*=": ("*=", "/=")}
 
@@ -340,7 +342,11 @@ def of_change(hook: str, name: str, action: str, states: set[str], known: Mappin
 
 
 def of_reading(hook: str, name: str, action: str, states: set[str], known: Mapping[str, Variable], frame: Frame) -> str:
-    """Why a hook may not read a field: other effects change it at the same stage."""
+    """Why a hook may not read a field: other effects change it at the same stage, or it has changed long before the hook runs again."""
+    if hook == ONCE and known[name].role == "input" and name != TEMPERATURE:
+        later = list(frame.hooks)[list(frame.hooks).index(hook) + 1 :]
+        return (f"{hook} reads r.{name}, {meaning(known[name])}: it runs at the start alone, and what comes in later in a run would go unseen;"
+                f" read it in {' or '.join([', '.join(later[:-1]), later[-1]] if later[1:] else later)}, which run at every step")
     if name in frame.allowed[hook]:
         later = [other for other in list(frame.hooks)[list(frame.hooks).index(hook) + 1 :] if name not in frame.allowed[other]]
         hint = f"; {', '.join(later)} may read it" if later else ""

@@ -115,6 +115,15 @@ def test_a_kernel_that_errs_is_told_where(tmp_path, line, message):
     assert found[0] == FIRST + 2 and message in found[1]
 
 
+def test_prepare_reads_no_input_that_may_change_in_a_run(tmp_path):
+    """It would stay what it was at the start, in loops and FMUs alike; the temperature of the surroundings there may be read."""
+    text = hook("r.compliance[r.z.shape[0] - 1] += r.my_size / (1.0 + abs(r.load_torque))", "prepare(r)")
+    (found,) = told(tmp_path, text)
+    assert found == (FIRST + 2, "prepare reads r.load_torque, an input (torque on the carrier, positive against positive rotation): it runs at the start alone, and what comes"
+                     " in later in a run would go unseen; read it in warm, before, hold, after, advance or heat, which run at every step")  # fmt: skip
+    assert told(tmp_path, text.replace("r.load_torque", "r.temperature")) == []
+
+
 def test_math_that_nobody_imported_and_modules_that_kernels_lack_are_told_with_what_to_import(tmp_path):
     without = hook("r.ring_scale *= math.exp(1.0)").replace("import math\n", "")
     (found,) = told(tmp_path, without)

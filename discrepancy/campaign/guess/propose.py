@@ -123,10 +123,10 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     unplaced = positions_asked(in_conditions, conditions)
     named = named_in(line for run in guessed for line in run.lines)
     doubts += another_named(named, wishes)
+    needs = needs_of(in_conditions, conditions, named, wishes)
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,
-        held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs_of(in_conditions, conditions, named, wishes), tuple(unplaced), angle_of,
-        named,
+        held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs, tuple(unplaced), angle_of, named,
     )  # fmt: skip
 
 
