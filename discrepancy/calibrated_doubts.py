@@ -78,7 +78,8 @@ def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (
     hardly = f"(the model's own is 1) is known to {deviation:.2g} only: the model's lag is fitted as {value:.2g} times what it is"
     if len(loads) > 1:
         known = [f"{load:.4g}" for load in loads if load is not None]
-        return [f"{hardly}, and the places of the pattern at {len(loads)} loads ({', '.join(known)} N.m) say it no better beside what is not explained;"
-                f" {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip
+        return [f"{hardly}, and the places of the pattern at {len(loads)} loads ({', '.join(known)} N.m) say it no better beside what is not explained:"
+                " diagnose before anything is changed, for an effect that is missing moves it"
+                f" ({OF_INPUT} is for an angle that was the input's)"]  # fmt: skip
     return [f"{hardly}, for all fitted runs of a mounting are at one load, where its zero makes up for it; runs at another load would tell the two apart"
             f" (if one is held out, hold out another condition), and {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip
