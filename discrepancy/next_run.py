@@ -54,6 +54,11 @@ POSITION_MISSING = (
     f"{QUESTION}, so that they are predicted as the mean over a turn of the cranks: what is left at all conditions alike may be the position, which is"
     f" missing before anything is mounted anew; {REMEDY}"
 )
+# Of an effect at one of several parts with which the reducer as a whole does the same.
+SAME_WITH_EACH = (
+    "no other run of these signals tells which of them it is, for they are the same with each; measure these parts, or exchange one of them for that of another"
+    " unit and repeat a run: if the effect changes with it, it was in that part"
+)
 # Noise (SI) assumed of what was not measured yet: that of a usual bench.
 UNMEASURED = {
     "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
@@ -159,7 +164,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
-        return NextRun(answer, None, list(names), text, left)
+        return NextRun(answer, None, list(names), "; ".join([text, *untold_parts(answer.effects)]), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     rivals = [rival_of(member, None, least) for member in chosen]
@@ -176,6 +181,11 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
     verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
     return NextRun(answer, result, [r.name for r in rivals], verdict, left)
+
+
+def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
+    return [f"{effect['name'].replace('_', ' ')} at {effect['place']}: {SAME_WITH_EACH}" for effect in effects if effect.get("other_places")]
 
 
 def plainly(member: Refit) -> str:
