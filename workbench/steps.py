@@ -196,11 +196,13 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)
+    # By now the file is there, which the command writes over only where it is its model.
+    over = "" if given.get("model") == MODEL else " --overwrite"
     write_json(place / "result.json", {
         "verdict": extension.verdict, "kept": bool(extension.step["kept"]), "reason": extension.step["reason"], "effects": names,
         "steps": list(extension.file.steps), "left": signals_left(step_of(extension.step).left, signal_title),
         "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
-        "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
+        "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}{over}",
     })  # fmt: skip
     if extension.step["kept"]:
         # All views go on with the better model; a life begun right after was one of the former.
