@@ -19,7 +19,7 @@ from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldO
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
-from discrepancy.model_file import ModelFile, extended_reducer
+from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
@@ -209,10 +209,11 @@ def unseen(diagnostician: Diagnostician, fit: Refit) -> tuple[str, str]:
     return DID_NOT_HELP, f"{told}, and with one condition left out at a time the misfit does not fall: the model stays as it was"
 
 
-def build_units(file: ModelFile, folder: Path) -> list[Path]:
-    """The FMUs of the extended model, its effects switched on."""
+def build_units(model: Path, folder: Path) -> list[Path]:
+    """The FMUs of an extended model's file, its effects switched on: named after model and file as those of ``rvwear build``."""
     # Here, so that a diagnosis that builds nothing does not load what writes FMUs.
+    from discrepancy.named_reducer import named_reducer
     from studies import building
 
-    built, packages = building.build_units(extended_reducer(file), folder)
+    built, packages = building.build_units(named_reducer(model), folder)
     return [Path(entry["fmu"]) for entry in built] + packages

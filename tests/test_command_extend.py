@@ -175,6 +175,26 @@ def test_a_file_that_is_there_is_written_over_only_where_it_is_asked_for(monkeyp
     assert main(words) == 0 and main([*words, "--output", "model.toml"]) == 0 and len(load_model(model).steps) == 2
 
 
+def test_units_of_the_extended_model_are_named_as_those_that_build_makes(monkeypatch, tmp_path, capsys):
+    """They were called after the base reducer, although the effect is in them."""
+    from studies import building
+
+    file = load_model("RV20E-121")
+    step = {"effects": ["drag"], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
+    effects = {"needle_clearance": {"needle_clearance_added": {"value": 2.0000123e-6, "unit": "m"}}}
+    monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: None)
+    monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(replace(file, effects=effects, steps=(step,)), step, HELPED))
+    built = []
+    monkeypatch.setattr(building, "build_units", lambda reducer, folder, *wanted: built.append(reducer) or ([], []))
+    target = str(tmp_path / "better.toml")
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target, "--fmus", str(tmp_path / "fmus")]) == 0
+    assert main(["build", "--reducer", target, "--output", str(tmp_path / "fmus")]) == 0
+    by_extend, by_build = built
+    assert by_extend.name == "RV20E-121-better" and by_extend == by_build
+
+
 @pytest.mark.parametrize(("floor", "said"), [(3.0, False), (300.0, True)])
 def test_error_below_the_noise_of_samples_is_not_many_times_the_noise(floor, said):
     judged = HeldOut(28.0, 2.0, 1e-3, {"hysteresis": {"before": 10.0, "after": 1.0, "floor": floor}}, "held-out runs")

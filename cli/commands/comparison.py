@@ -259,7 +259,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:
         with task("building the FMUs"):
-            fmus = [str(path) for path in build_units(extension.file, Path(options.fmus))]
+            fmus = [str(path) for path in build_units(target, Path(options.fmus))]
     write_html(options, extension)
     if options.json:
         json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
