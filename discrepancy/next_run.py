@@ -265,7 +265,7 @@ def possible(model: PhysicalModel, campaign: Campaign, space: Workspace) -> list
         # Not measured so far, but the rig could.
         for tags in TAGS.get(quantity, ({},)) if quantity in UNMEASURED else ():
             axes = {"transmission_error": {"angle": np.zeros(1)},
-                    "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS)[1:]}}.get(quantity, {})
+                    "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS, np.zeros(0))[1:]}}.get(quantity, {})
             example = Record("proposed", quantity, QUANTITIES[quantity].unit, "", 1, np.zeros(1), axes, {"direction": 1}, tags=tags)
             signals[stream_of(example)] = example
     found = []
