@@ -71,14 +71,11 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from, ``doctor`` one that was
     interrupted.
     """
-    begun = doctor.model if doctor and isinstance(doctor.model, PhysicalModel) else None
-    model = answer.model if answer else begun or PhysicalModel(file, campaign, jobs=jobs)
+    diagnostician = answer.doctor if answer else doctor or beginning(file, campaign, settings, jobs)
+    model = answer.model if answer else diagnostician.model
     # A name that nobody knows is refused before minutes are spent.
     asked = [variants_of(name, model.candidates, file) for name in names]
-    if answer:
-        diagnostician = answer.doctor
-    else:
-        diagnostician = doctor or Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+    if not answer:
         with task("fitting the base model"):
             diagnostician.prepare()
         # Where a fit starts is known from the candidate's own score.
@@ -125,6 +122,12 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
                      {p.name: p.unit for p in diagnostician.space.base.parameters})
+
+
+def beginning(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician:
+    """One that has done nothing yet."""
+    model = PhysicalModel(file, campaign, jobs=jobs)
+    return Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
 
 
 def known_to(value: float, interval: tuple[float, float]) -> float:

@@ -96,6 +96,7 @@ def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
     assert "did you mean" not in str(fault.value)
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates, file))
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
     assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
@@ -131,6 +132,7 @@ kept = false
     candidates = [Candidate("hole_position_errors.disc", "", ()), Candidate("pin_position_errors.runout", "", ())]
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model(path), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[0], candidates, file))
     assert main(["extend", str(path), "c", "--effect", "hole_position_errors.carrier"]) == 2
     said, line = capsys.readouterr().err.splitlines()
@@ -145,6 +147,7 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     step = {"effects": ["drag"], "reason": "no", "signals": [], "kept": False, "verdict": DID_NOT_HELP, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
     monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
     target = str(tmp_path / "m.toml")
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 3
@@ -158,7 +161,7 @@ def test_a_file_that_is_there_is_written_over_only_where_it_is_asked_for(monkeyp
     step = {"effects": ["drag"], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model(given.model), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
-    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda file, *given, **more: Extension(replace(file, steps=(*file.steps, step)), step, HELPED))
     monkeypatch.chdir(tmp_path)
     other, words = tmp_path / "other.toml", ["extend", str(model), "c", "--effect", "drag"]
@@ -184,7 +187,7 @@ def test_units_of_the_extended_model_are_named_as_those_that_build_makes(monkeyp
     effects = {"needle_clearance": {"needle_clearance_added": {"value": 2.0000123e-6, "unit": "m"}}}
     monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
-    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(replace(file, effects=effects, steps=(step,)), step, HELPED))
     built = []
     monkeypatch.setattr(building, "build_units", lambda reducer, folder, *wanted: built.append(reducer) or ([], []))

@@ -175,12 +175,11 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
 
 def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """The extended model is ``model.toml`` of the folder; the ladder stands in it."""
-    from discrepancy.extend import extend
     from discrepancy.ladder_step import step_of
     from discrepancy.model_file import save_model
     from discrepancy.page.amounts import signal_title
     from discrepancy.page.write import page_of
-    from discrepancy.remembered import interrupted, remembered
+    from discrepancy.remembered import extended
     from discrepancy.wording import signals_left
     from fmu_src.held_file import held
 
@@ -190,9 +189,7 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     target = folder.root / MODEL
     with task(f"adding {', '.join(names)}"), held(target):
         file, campaign = inputs(folder, given)
-        known = remembered(file, campaign, jobs=jobs)
-        doctor = None if known else interrupted(file, campaign, jobs=jobs)
-        extension = extend(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, answer=known, doctor=doctor)
+        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs)
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)

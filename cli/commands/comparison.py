@@ -231,10 +231,10 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
     from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.already_there import AlreadyThere
-    from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
+    from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
-    from discrepancy.remembered import diagnosed, remembered
+    from discrepancy.remembered import diagnosed, extended
 
     names = options.effect
     if not names:
@@ -244,12 +244,10 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             raise InputFault(refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
-        known = remembered(file, campaign, jobs=all_cores())
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=known)
+            extension = extended(file, campaign, names, anyway=options.anyway, jobs=all_cores())
         except KeyboardInterrupt as stop:
-            how = "the diagnosis is kept, and the same command goes on from there" if known else "the same command begins anew"
-            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {how}") from stop
+            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {stop}") from stop
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
