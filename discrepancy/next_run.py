@@ -27,6 +27,7 @@ from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.unstated_texts import without_place
+from discrepancy.usual_noise import UNMEASURED
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
@@ -59,11 +60,6 @@ SAME_WITH_EACH = (
     "no other run of these signals tells which of them it is, for they are the same with each; measure these parts, or exchange one of them for that of another"
     " unit and repeat a run: if the effect changes with it, it was in that part"
 )
-# Noise (SI) assumed of what was not measured yet: that of a usual bench.
-UNMEASURED = {
-    "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
-    "input_torque": 0.02, "no_load_torque": 0.01, "cage_speed": 0.01, "wear_depth": 1e-7,
-}  # fmt: skip
 # What can be meant by a quantity that was not measured yet.
 TAGS: dict[str, tuple[dict[str, str], ...]] = {
     "wear_depth": tuple({"surface": s} for s in ("flank", "pin", "inner_race", "outer_race")),
