@@ -57,8 +57,8 @@ POSITION_MISSING = (
 )
 # Of an effect at one of several parts with which the reducer as a whole does the same.
 SAME_WITH_EACH = (
-    "no other run of these signals tells which of them it is, for they are the same with each; measure these parts, or exchange one of them for that of another"
-    " unit and repeat a run: if the effect changes with it, it was in that part"
+    "no other run of these signals tells, for they are the same with each; measure these parts, or exchange one of them for that of another unit and"
+    " repeat a run: if the effect changes with it, it was in that part"
 )
 # What can be meant by a quantity that was not measured yet.
 TAGS: dict[str, tuple[dict[str, str], ...]] = {
@@ -181,7 +181,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
 
 def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
-    return [f"{effect['name'].replace('_', ' ')} at {effect['place']}: {SAME_WITH_EACH}" for effect in effects if effect.get("other_places")]
+    several = (effect for effect in effects if effect.get("other_places"))
+    return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
 
 
 def plainly(member: Refit) -> str:
