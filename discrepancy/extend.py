@@ -8,7 +8,7 @@ import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from discrepancy import as_told
 from discrepancy.already_there import AlreadyThere, numbers_of
@@ -20,7 +20,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure
-from discrepancy.model_file import ModelFile, extended_reducer
+from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
@@ -75,14 +75,12 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     ``anyway`` keeps an effect that did not help, for those who know better; ``answer`` is a diagnosis of the same to go on from, ``doctor`` one that was
     interrupted.
     """
-    begun = doctor.model if doctor and isinstance(doctor.model, PhysicalModel) else None
-    model = answer.model if answer else begun or PhysicalModel(file, campaign, jobs=jobs)
+    diagnostician = answer.doctor if answer else doctor or beginning(file, campaign, settings, jobs)
+    # Whoever began made it in ``beginning``.
+    model = answer.model if answer else cast(PhysicalModel, diagnostician.model)
     # A name that nobody knows is refused before minutes are spent.
     asked = [variants_of(name, model.candidates, file) for name in names]
-    if answer:
-        diagnostician = answer.doctor
-    else:
-        diagnostician = doctor or Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+    if not answer:
         with task("fitting the base model"):
             diagnostician.prepare()
         # Where a fit starts is known from the candidate's own score.
@@ -130,6 +128,12 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
                      {p.name: p.unit for p in diagnostician.space.base.parameters}, figures)
+
+
+def beginning(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician:
+    """One that has done nothing yet."""
+    model = PhysicalModel(file, campaign, jobs=jobs)
+    return Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
 
 
 def known_to(value: float, interval: tuple[float, float]) -> float:
@@ -214,10 +218,11 @@ def unseen(diagnostician: Diagnostician, fit: Refit) -> tuple[str, str]:
     return DID_NOT_HELP, f"{told}, and with one condition left out at a time the misfit does not fall: the model stays as it was"
 
 
-def build_units(file: ModelFile, folder: Path) -> list[Path]:
-    """The FMUs of the extended model, its effects switched on."""
+def build_units(model: Path, folder: Path) -> list[Path]:
+    """The FMUs of an extended model's file, its effects switched on: named after model and file as those of ``rvwear build``."""
     # Here, so that a diagnosis that builds nothing does not load what writes FMUs.
+    from discrepancy.named_reducer import named_reducer
     from studies import building
 
-    built, packages = building.build_units(extended_reducer(file), folder)
+    built, packages = building.build_units(named_reducer(model), folder)
     return [Path(entry["fmu"]) for entry in built] + packages

@@ -27,6 +27,7 @@ from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.unstated_texts import without_place
+from discrepancy.usual_noise import UNMEASURED
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
@@ -54,11 +55,11 @@ POSITION_MISSING = (
     f"{QUESTION}, so that they are predicted as the mean over a turn of the cranks: what is left at all conditions alike may be the position, which is"
     f" missing before anything is mounted anew; {REMEDY}"
 )
-# Noise (SI) assumed of what was not measured yet: that of a usual bench.
-UNMEASURED = {
-    "transmission_error": 2.5e-6, "hysteresis": 5e-6, "lost_motion": 1e-5, "torsional_stiffness": 2e3,
-    "input_torque": 0.02, "no_load_torque": 0.01, "cage_speed": 0.01, "wear_depth": 1e-7,
-}  # fmt: skip
+# Of an effect at one of several parts with which the reducer as a whole does the same.
+SAME_WITH_EACH = (
+    "no other run of these signals tells, for they are the same with each; measure these parts, or exchange one of them for that of another unit and"
+    " repeat a run: if the effect changes with it, it was in that part"
+)
 # What can be meant by a quantity that was not measured yet.
 TAGS: dict[str, tuple[dict[str, str], ...]] = {
     "wear_depth": tuple({"surface": s} for s in ("flank", "pin", "inner_race", "outer_race")),
@@ -159,7 +160,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
-        return NextRun(answer, None, list(names), text, left)
+        return NextRun(answer, None, list(names), "; ".join([text, *untold_parts(answer.effects)]), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     rivals = [rival_of(member, None, least) for member in chosen]
@@ -176,6 +177,12 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
     verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
     return NextRun(answer, result, [r.name for r in rivals], verdict, left)
+
+
+def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
+    several = (effect for effect in effects if effect.get("other_places"))
+    return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
 
 
 def plainly(member: Refit) -> str:
@@ -255,7 +262,7 @@ def possible(model: PhysicalModel, campaign: Campaign, space: Workspace) -> list
         # Not measured so far, but the rig could.
         for tags in TAGS.get(quantity, ({},)) if quantity in UNMEASURED else ():
             axes = {"transmission_error": {"angle": np.zeros(1)},
-                    "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS)[1:]}}.get(quantity, {})
+                    "hysteresis": {"torque": torque_way(model.bench.rated_load, LOOP_STEPS, np.zeros(0))[1:]}}.get(quantity, {})
             example = Record("proposed", quantity, QUANTITIES[quantity].unit, "", 1, np.zeros(1), axes, {"direction": 1}, tags=tags)
             signals[stream_of(example)] = example
     found = []

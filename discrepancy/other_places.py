@@ -36,12 +36,14 @@ class LookAlike:
 
 
 def placed(effects: list[dict[str, Any]], model: PhysicalModel, found: Diagnosis) -> list[dict[str, Any]]:
-    """Named effects with their ``place``, in words, empty where an effect has none; and the candidates that ``look_alike``."""
+    """Named effects with their ``place``, in words, empty where an effect has none; the ``other_places`` at which they would show the same, and the
+    candidates that ``look_alike``."""
     told = []
     for effect in effects:
         candidate = effect["candidates"][0]
         here, others = place_of(candidate, model), look_alikes(candidate, model, found)
-        told.append(effect | {"place": place_text(here, others, model.wave), "look_alike": [other.candidate for other in others if other.candidate]})
+        told.append(effect | {"place": place_text(here, others, model.wave), "other_places": [other.place for other in others],
+                              "look_alike": [other.candidate for other in others if other.candidate]})  # fmt: skip
     return told
 
 

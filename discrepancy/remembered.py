@@ -11,7 +11,7 @@ import pickle
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
 from fmu_src.progress import task
 from fmu_src.source_hash import ROOT
+
+if TYPE_CHECKING:
+    from discrepancy.extend import Extension
 
 # What the task of a diagnosis that is computed from its beginning is called.
 WHOLE = "the whole diagnosis"
@@ -54,8 +57,34 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     return answer
 
 
+def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False, jobs: int = 1) -> "Extension":
+    """``extend``, from the diagnosis of the same if there was one, else from what it, or an extension, had found when it was interrupted.
+
+    KeyboardInterrupt says whether the same goes on from there: what is known by then is kept once the base model is fitted.
+    """
+    # Here, so that a diagnosis does not load what adds effects.
+    from discrepancy.extend import beginning, extend
+
+    known = remembered(file, campaign, settings, jobs)
+    doctor = None if known else interrupted(file, campaign, settings, jobs) or beginning(file, campaign, settings, jobs)
+    try:
+        return extend(file, campaign, names, settings=settings, anyway=anyway, jobs=jobs, answer=known, doctor=doctor)
+    except KeyboardInterrupt as stop:
+        raise KeyboardInterrupt(kept_text(file, campaign, settings, doctor)) from stop
+
+
+def kept_text(file: ModelFile, campaign: Campaign, settings: Settings, doctor: Diagnostician | None) -> str:
+    """Keeps what ``doctor`` had found when it was interrupted, if that is anything, and says what the same command begins with."""
+    if doctor is not None:
+        if not hasattr(doctor, "localisation"):
+            return "the same command begins anew"
+        doctor.space.predictions.unfinished = True
+        write(place_of(file, campaign, settings).with_suffix(".begun"), doctor)
+    return f"the {'fits so far are' if doctor else 'diagnosis is'} kept, and the same command goes on from there"
+
+
 def interrupted(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician | None:
-    """What a diagnosis had found when it was interrupted, if one was."""
+    """What a diagnosis, or an extension without one, had found when it was interrupted, if one was."""
     doctor = read(place_of(file, campaign, settings).with_suffix(".begun"), Diagnostician)
     if doctor is not None:
         doctor.space.threads.jobs = jobs

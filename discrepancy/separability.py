@@ -12,9 +12,9 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import candidate_columns
 from discrepancy.inference.separable import APART, STRENGTH, Pair, effect_of, separations
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import UNMEASURED
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
+from discrepancy.usual_noise import UNMEASURED
 from fmu_src.faults import InputFault
 from fmu_src.threads import sharing_no_matrices
 

@@ -414,4 +414,12 @@ def test_a_reducer_named_above_the_tables_is_proposed(tmp_path, capsys):
     said = ("i=121", ", ratio 121", " 1:121", "; i = 121", ", Übersetzung 121", ", rapport de réduction: 1/121", "; rapporto di riduzione;121", " 减速比：121")
     assert {named_in([f"Riduttore: RV-20E {ratio}"]) for ratio in said} == {"RV20E-121"} and named_in(["RV20E 1:121"]) == "RV20E-121"
     assert named_in(["RV-20E i=81, 121 runs"]) is None and named_in(["RV-20E, relación 1:81"]) is None and named_in(["BX-40E i=121"]) == "BX-40E"
+    # Not by the beginning of another number.
+    assert not any(map(named_in, (["RV20E i=1210"], ["RV-20E-1210"], ["RV-20E i=12.1"], ["RV-20E i=121.5"], ["CRV-20E-121"], ["BX-400E"])))
+    # Model and ratio on lines of their own.
+    for label in ("Rapport : 121", "Rapporto di riduzione;121", "# ratio = 121", "i=121", "Übersetzung: 1:121", "减速比：121"):
+        assert named_in(["Modèle : RV-20E", "Opérateur : 12", label]) == "RV20E-121"
+    for label in ("Rapport : 1210", "Rapport : 81", "Rapport : 121,5", "couple : 121", "1/121"):
+        assert named_in(["Modèle : RV-20E", label]) is None
+    assert named_in(["Modèle : RV-20E-81", "Rapport : 121"]) is None and named_in(["Modèle : RV-20E, i = 81", "i : 121"]) is None
     assert named_in(["unit: BX 40E"]) == "BX-40E" and named_in(["RV20E"]) is None and named_in(["RV20E-121 or BX-40E"]) is None

@@ -96,6 +96,7 @@ def test_misspelt_effect_has_the_line_with_the_right_name(monkeypatch, capsys):
     assert "did you mean" not in str(fault.value)
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[1], candidates, file))
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--effect", "needle_clearence"]) == 2
     assert capsys.readouterr().err.splitlines()[-1].strip() == "rvwear extend RV20E-121 c --effect drag --effect needle_clearance"
@@ -131,6 +132,7 @@ kept = false
     candidates = [Candidate("hole_position_errors.disc", "", ()), Candidate("pin_position_errors.runout", "", ())]
     monkeypatch.setattr(commands, "inputs", lambda given: (load_model(path), None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda file, campaign, names, **more: variants_of(names[0], candidates, file))
     assert main(["extend", str(path), "c", "--effect", "hole_position_errors.carrier"]) == 2
     said, line = capsys.readouterr().err.splitlines()
@@ -145,10 +147,55 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     step = {"effects": ["drag"], "reason": "no", "signals": [], "kept": False, "verdict": DID_NOT_HELP, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
     monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
     monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
     target = str(tmp_path / "m.toml")
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 3
-    assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --anyway"
+    assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --overwrite --anyway"
+
+
+def test_a_file_that_is_there_is_written_over_only_where_it_is_asked_for(monkeypatch, capsys, tmp_path):
+    """Another model, or a reducer's own file, went without a word; the file that the model came from gets its next step as ever."""
+    model = tmp_path / "model.toml"
+    model.write_text('[model]\nname = "better"\nreducer = "RV20E-121"\n')
+    step = {"effects": ["drag"], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model(given.model), None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
+    monkeypatch.setattr(extension, "extend", lambda file, *given, **more: Extension(replace(file, steps=(*file.steps, step)), step, HELPED))
+    monkeypatch.chdir(tmp_path)
+    other, words = tmp_path / "other.toml", ["extend", str(model), "c", "--effect", "drag"]
+    for target, more in ((other, ["--output", str(other)]), (other, ["--output", "other.toml", "--draft", "mine"])):
+        target.write_text("mine", encoding="utf-8")
+        assert main([*words[: -2 if "--draft" in more else None], *more]) == 2
+        said = capsys.readouterr().err
+        assert "other.toml exists already and is not overwritten; give another name by --output, or --overwrite" in said
+        assert target.read_text(encoding="utf-8") == "mine"
+    # A library's reducer has a file of its name by default.
+    (tmp_path / "RV20E-121.toml").write_text("mine", encoding="utf-8")
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag"]) == 2 and "RV20E-121.toml exists already" in capsys.readouterr().err
+    assert main([*words, "--output", str(other), "--overwrite"]) == 0 and len(load_model(other).steps) == 1
+    assert main(words) == 0 and main([*words, "--output", "model.toml"]) == 0 and len(load_model(model).steps) == 2
+
+
+def test_units_of_the_extended_model_are_named_as_those_that_build_makes(monkeypatch, tmp_path, capsys):
+    """They were called after the base reducer, although the effect is in them."""
+    from studies import building
+
+    file = load_model("RV20E-121")
+    step = {"effects": ["drag"], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
+    effects = {"needle_clearance": {"needle_clearance_added": {"value": 2.0000123e-6, "unit": "m"}}}
+    monkeypatch.setattr(commands, "inputs", lambda given: (file, None))
+    monkeypatch.setattr("discrepancy.remembered.remembered", lambda *given, **more: None)
+    monkeypatch.setattr("discrepancy.remembered.interrupted", lambda *given, **more: SimpleNamespace())
+    monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(replace(file, effects=effects, steps=(step,)), step, HELPED))
+    built = []
+    monkeypatch.setattr(building, "build_units", lambda reducer, folder, *wanted: built.append(reducer) or ([], []))
+    target = str(tmp_path / "better.toml")
+    assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target, "--fmus", str(tmp_path / "fmus")]) == 0
+    assert main(["build", "--reducer", target, "--output", str(tmp_path / "fmus")]) == 0
+    by_extend, by_build = built
+    assert by_extend.name == "RV20E-121-better" and by_extend == by_build
 
 
 @pytest.mark.parametrize(("floor", "said"), [(3.0, False), (300.0, True)])

@@ -423,6 +423,7 @@ def after(r):
 
 def test_check_says_of_every_parameter_its_units_and_what_a_diagnosis_does_with_it(tmp_path, capsys):
     law = LAW.replace('"known", held=True)', '"known", held=True),\n     shape("lip_onset", "K", "T0", 303.15, 273.15, 353.15, "assumed")')
+    law = law.replace('("input_torque",)', '("input_torque", "no_load_torque", "efficiency")')
     assert main(["effects", "--check", str(written(tmp_path, law, name="lip"))]) == 0
     assert capsys.readouterr().out.splitlines()[1:] == [
         "  lip_torque: in N.m, here and in answers; amplitude, fitted within 0 to 5 N.m",

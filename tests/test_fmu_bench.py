@@ -1,6 +1,7 @@
 """The bench with the FMUs on it says what the bench with their kernels says, up to a whole diagnosis."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,10 +88,16 @@ def test_units_of_another_reducer_are_refused(fmus):
 
 def test_units_of_the_extended_model_are_taken(model, fmus, monkeypatch):
     from discrepancy.model_file import extended_reducer
+    from discrepancy.named_reducer import reducer_of_model
 
     better = ModelFile("better", model.reducer, {}, {"needle_clearance": {CLEARANCE: {"value": 0.6e-6, "unit": "m"}}})
     built_from = {"plant": "rv_plant", "wear": "wear_fmu"}
     monkeypatch.setattr(Fmu, "specification", lambda unit: extended_reducer(better).specification(built_from[unit.name]))
+    FmuBench(better, better.values(), fmus)
+    # As ``build`` and ``extend --fmus`` name them, after model and file.
+    named = reducer_of_model(replace(better, path=Path("worn.toml")))
+    assert named.name == "better-worn"
+    monkeypatch.setattr(Fmu, "specification", lambda unit: named.specification(built_from[unit.name]))
     FmuBench(better, better.values(), fmus)
     with pytest.raises(InputFault, match="another reducer file"):
         FmuBench(model, {}, fmus)

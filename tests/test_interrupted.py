@@ -173,6 +173,33 @@ def test_control_c_at_the_command_leaves_an_answer_and_the_command_goes_on(tmp_p
     assert json.loads(again.stdout)["verdict"] != "stopped" and load_model("RV20E-121").name == json.loads(again.stdout)["model"]
 
 
+def test_an_extension_goes_on_after_control_c_from_what_it_had_fitted(monkeypatch, capsys, tmp_path):
+    """It began anew, where ``diagnose`` went on."""
+    from cli.main import main
+    from discrepancy.inference.base_fit.workspace import Workspace
+
+    folder = campaign_folder(tmp_path / "campaign")
+    place = place_of(load_model("RV20E-121"), load_campaign(folder), Settings())
+    for left in (place, place.with_suffix(".begun")):
+        left.unlink(missing_ok=True)
+    fits, fit_base = [], Workspace.fit_base
+    monkeypatch.setattr(Workspace, "fit_base", lambda space: fits.append(space) or fit_base(space))
+    words = ["extend", "RV20E-121", str(folder), "--effect", "support_compliance", "--output", str(tmp_path / "better.toml"), "--json"]
+    with monkeypatch.context() as patience:
+        impatient(patience, 3)
+        assert main(words) == 130
+    said = capsys.readouterr().err
+    assert "better.toml is as it was; the fits so far are kept, and the same command goes on from there" in said and len(fits) == 1
+    assert main(words) in (0, 3) and len(fits) == 1
+    again = json.loads(capsys.readouterr().out)["step"]
+    # The same as without a pause.
+    for left in (place.with_suffix(".begun"), tmp_path / "better.toml"):
+        left.unlink()
+    main(words)
+    whole = json.loads(capsys.readouterr().out)["step"]
+    assert len(fits) == 2 and again["effects"] == whole["effects"] and again["training_after"] == pytest.approx(whole["training_after"])
+
+
 def test_interrupted_while_the_base_is_fitted_the_command_says_that_nothing_is_known(monkeypatch, capsys, tmp_path):
     from cli.main import main
     from discrepancy import verdict
@@ -231,6 +258,8 @@ def test_interrupted_after_the_diagnosis_what_is_kept_is_said(monkeypatch, capsy
     monkeypatch.setattr(next_run, "proposal_for", stop)
     assert main(["next", "RV20E-121", "campaign"]) == 130
     monkeypatch.setattr(extend, "extend", stop)
+    # Before the base model is fitted there is nothing to keep.
+    monkeypatch.setattr(remembered, "interrupted", lambda *given, **how: SimpleNamespace())
     for known in (None, "an answer"):
         monkeypatch.setattr(remembered, "remembered", lambda *given, known=known, **how: known)
         assert main(["extend", "RV20E-121", "campaign", "--effect", "drag"]) == 130

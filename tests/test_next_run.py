@@ -87,7 +87,7 @@ def answer_of(verdict, members=(), findings=(), rivals=()):
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
     diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local)
     said = "that no effect of the catalogue explains"
-    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said)
+    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[])
 
 
 @pytest.mark.parametrize(("verdict", "members"), [(INCOMPLETE, ["drag"]), (UNKNOWN, [])])
@@ -144,6 +144,19 @@ def test_nothing_is_left_after_one_effect_or_none():
     # What came nearest to nothing is no suspect.
     run = proposal_for(answer_of(NONE, rivals=["drag", "first_stage_error"]), CAMPAIGN)
     assert "nothing is missing" in run.verdict and not run.rivals and run.result is None
+
+
+@pytest.mark.parametrize("verdict", [ONE, INCOMPLETE])
+def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
+    """"Nothing is left to separate" stood there while four lobes came into question."""
+    answer = answer_of(verdict, ["crank_lobe_errors.crank_1"])
+    four = "crank 1 at disc 1 or crank 2 at disc 2, which look alike"
+    answer.effects = [{"name": "crank_lobe_errors", "place": four, "other_places": ["crank 2 at disc 2"]}]
+    said = proposal_for(answer, CAMPAIGN).verdict
+    assert f"at which part it is (crank lobe errors at {four}) no other run of these signals tells, for they are the same with each" in said
+    assert "exchange one of them for that of another unit" in said
+    answer.effects = [{"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "other_places": []}]
+    assert "no other run" not in proposal_for(answer, CAMPAIGN).verdict
 
 
 def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():

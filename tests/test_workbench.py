@@ -692,6 +692,8 @@ def test_once_the_effect_is_in_the_model_that_model_is_the_chosen_one(tmp_path, 
     place.mkdir(parents=True)
     assert steps.extend_step(folder, {"model": "RV20E-121", "effects": ["drag"]}, 1, place) is False
     assert folder.recall("view") == {"model": chosen, "theme": "dark"}
+    # The file is there by now, and the command asks for what was done here.
+    assert folder.recall("jobs/extend/result")["command"].endswith(f"--output {shlex.quote(str(folder.root / 'model.toml'))} --overwrite")
     # After a stop it goes on from there.
     assert asked[0]["answer"] is None and asked[0]["doctor"] == "what was known"
 

@@ -179,12 +179,11 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
 
 def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """The extended model is ``model.toml`` of the folder; the ladder stands in it."""
-    from discrepancy.extend import extend
     from discrepancy.ladder_step import step_of
     from discrepancy.model_file import save_model
     from discrepancy.page.amounts import signal_title
     from discrepancy.page.write import page_of
-    from discrepancy.remembered import interrupted, remembered
+    from discrepancy.remembered import extended
     from discrepancy.wording import signals_left
     from fmu_src.held_file import held
 
@@ -194,17 +193,17 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     target = folder.root / MODEL
     with task(f"adding {', '.join(names)}"), held(target):
         file, campaign = inputs(folder, given)
-        known = remembered(file, campaign, jobs=jobs)
-        doctor = None if known else interrupted(file, campaign, jobs=jobs)
-        extension = extend(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, answer=known, doctor=doctor)
+        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs)
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)
+    # By now the file is there, which the command writes over only where it is its model.
+    over = "" if given.get("model") == MODEL else " --overwrite"
     write_json(place / "result.json", {
         "verdict": extension.verdict, "kept": bool(extension.step["kept"]), "reason": extension.step["reason"], "effects": names,
         "steps": list(extension.file.steps), "left": signals_left(step_of(extension.step).left, signal_title),
         "page": page_data(page_of(extension)), "ladder": page_data(page_of(extension.file)),
-        "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}",
+        "command": f"{command(folder, given, 'extend')} {words} --output {shlex.quote(str(target))}{over}",
     })  # fmt: skip
     if extension.step["kept"]:
         # All views go on with the better model; a life begun right after was one of the former.

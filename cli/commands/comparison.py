@@ -50,6 +50,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add.add_argument("--draft", metavar="DIR", help="where nothing is named: write the recovered law as an effect into DIR, build, fit and judge it")
     add.add_argument("--name", metavar="NAME", help="with --draft: what the effect is called (default: by what it acts on)")
     add.add_argument("--output", metavar="FILE", help="model file to write (default: the model file itself, or NAME.toml)")
+    add.add_argument("--overwrite", action="store_true", help="write over another file that is there")
     add.add_argument("--fmus", metavar="FOLDER", help="build the FMUs of the extended model there")
     add.add_argument("--anyway", action="store_true", help="keep an effect that did not help")
     add.set_defaults(run=run_extend)
@@ -182,14 +183,28 @@ def run_extend(options: argparse.Namespace) -> int:
     from discrepancy.verdict import AnswerSoFar
 
     try:
+        target = model_target(options, file)
         if options.draft:
             return run_draft(options, file, campaign)
-        target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
         # Read here and written at the end: nobody else's step is to be lost in between.
         with held(target):
             return add_effect(options, file, campaign, target)
     except AnswerSoFar as stop:
         return tell_so_far(options, stop)
+
+
+def model_target(options: argparse.Namespace, file: "ModelFile") -> Path:
+    """Where the extended model goes, checked before the work: a model file gets its next step, no other file is written over unasked."""
+    target = Path(options.output) if options.output else file.path or Path(f"{file.name}.toml")
+    if target.exists() and not is_own(file, target) and not options.overwrite:
+        option = "--output " if options.output else ""
+        raise InputFault(f"{option}{target} exists already and is not overwritten; give another name by --output, or --overwrite")
+    return target
+
+
+def is_own(file: "ModelFile", target: Path) -> bool:
+    """Whether that is the file which the model was read from."""
+    return file.path is not None and file.path.exists() and target.samefile(file.path)
 
 
 def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
@@ -216,10 +231,10 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
     from cli.screen import json_text
     from cli.show.comparison import show_extension
     from discrepancy.already_there import AlreadyThere
-    from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units, extend
+    from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
-    from discrepancy.remembered import diagnosed, remembered
+    from discrepancy.remembered import diagnosed, extended
 
     names = options.effect
     if not names:
@@ -229,12 +244,10 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             raise InputFault(refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
-        known = remembered(file, campaign, jobs=all_cores())
         try:
-            extension = extend(file, campaign, names, anyway=options.anyway, jobs=all_cores(), answer=known)
+            extension = extended(file, campaign, names, anyway=options.anyway, jobs=all_cores())
         except KeyboardInterrupt as stop:
-            how = "the diagnosis is kept, and the same command goes on from there" if known else "the same command begins anew"
-            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {how}") from stop
+            raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {stop}") from stop
         except UnknownEffect as fault:
             meant = [fault.nearest[0] if name == fault.name else name for name in names] if fault.nearest else []
             raise InputFault(f"{fault}" + (f"\n  {extend_line(options, meant)}" if meant else "")) from None
@@ -244,7 +257,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
     fmus = []
     if options.fmus and extension.verdict != DID_NOT_HELP:
         with task("building the FMUs"):
-            fmus = [str(path) for path in build_units(extension.file, Path(options.fmus))]
+            fmus = [str(path) for path in build_units(target, Path(options.fmus))]
     write_html(options, extension)
     if options.json:
         json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
@@ -252,7 +265,9 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         show_extension(extension)
         say_file(target, "model  ")
         if not extension.step["kept"]:
-            print(f"to keep it all the same:\n  {extend_line(options, names, anyway=True)}")
+            # The model as it was, with what was tried, stands there by now.
+            again = argparse.Namespace(**vars(options) | {"overwrite": options.overwrite or not is_own(file, target)})
+            print(f"to keep it all the same:\n  {extend_line(again, names, anyway=True)}")
         for path in fmus:
             say_file(path, "FMU    ")
     say_page(options)

@@ -66,7 +66,7 @@ def tried(options: argparse.Namespace, file: "ModelFile", answer: "Answer", draf
     if not options.json:
         show_draft(answer, draft, reasons)
         only_file(draft.file)
-    done = child(options, draft, [*given(options, ("output", "fmus", "html")), *(["--anyway"] if options.anyway else [])], options.json)
+    done = child(options, draft, [*given(options, ("output", "fmus", "html")), *flags(options, ("anyway", "overwrite"))], options.json)
     if done.returncode not in (0, DID_NOT_HELP_CODE) or (options.json and not done.stdout.strip()):
         # The fault was said on the way.
         return done.returncode
@@ -84,7 +84,7 @@ def better(options: argparse.Namespace, drafts: "list[Draft]") -> "Draft":
     with tempfile.TemporaryDirectory() as scratch, task("comparing the law alone and beside what is named", total=len(drafts)) as comparing:
         errors = []
         for draft in drafts:
-            done = child(options, draft, ["--output", str(Path(scratch) / "model.toml")], True)
+            done = child(options, draft, ["--output", str(Path(scratch) / "model.toml"), "--overwrite"], True)
             errors.append(float(json.loads(done.stdout)["step"]["training_after"]) if done.stdout.strip() else math.inf)
             comparing.advance()
     if min(errors) == math.inf:
@@ -106,6 +106,10 @@ def child(options: argparse.Namespace, draft: "Draft", more: list[str], as_json:
 
 def given(options: argparse.Namespace, keys: tuple[str, ...]) -> list[str]:
     return [word for key in keys if (value := getattr(options, key)) is not None for word in (f"--{key}", value)]
+
+
+def flags(options: argparse.Namespace, keys: tuple[str, ...]) -> list[str]:
+    return [f"--{key}" for key in keys if getattr(options, key)]
 
 
 def no_draft(options: argparse.Namespace, answer: "Answer", reasons: list[str]) -> str:

@@ -22,7 +22,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_reducer(effects, f"reducer on the bench (default {IDEAL_REDUCER}: rigid, without losses; other commands: RV20E-121)", IDEAL_REDUCER)
     add_json(effects, "print as JSON, nothing else")
     effects.add_argument("--html", metavar="FILE", help="write a page with a picture of each signature")
-    effects.add_argument("--check", nargs="+", metavar="FILE", help="look at files of effects of your own, or folders of them: what is wrong, and where")
+    effects.add_argument("--check", nargs="+", metavar="FILE",
+                         help="look at files of effects of your own, or folders of them: what is wrong, and where; whether their signals are what they change")
     effects.set_defaults(run=run_effects)
 
 
@@ -70,12 +71,15 @@ def check_files(files: list[Path], as_json: bool) -> int:
     from fmu_src.effect_check import check_any_file
 
     findings = {str(file): check_any_file(file) or unknown_words(file) or tried(file) for file in files}
+    # Of signals it is no fault to leave some out.
+    doubts = {name: doubtful_signals(Path(name)) for name, found in findings.items() if not found}
     if as_json:
-        shown = {name: [{"line": f.line, "text": f.text} for f in found] for name, found in findings.items()}
-        json_text({"findings": shown})
+        shown, doubted = ({name: [{"line": f.line, "text": f.text} for f in found] for name, found in told.items()} for told in (findings, doubts))
+        json_text({"findings": shown, "doubts": doubted})
     else:
         for name, found in findings.items():
-            print("\n".join(map(str, found)) if found else "\n".join([f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name)))]))
+            sound = [f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name))), *(f"  doubtful: {f.text}" for f in doubts.get(name, []))]
+            print("\n".join(map(str, found) if found else sound))
     return 2 if any(findings.values()) else 0
 
 
@@ -122,6 +126,18 @@ def tried(file: Path) -> "list[Finding]":
             return refused
     with task(f"trying {file.name} with its amplitudes off"):
         return changes_when_off(file.absolute())
+
+
+def doubtful_signals(file: Path) -> "list[Finding]":
+    """Where what a sound effect declares is not what it changes; one that declares nothing is looked for everywhere."""
+    from discrepancy.catalogue.declared_signals import signal_doubts
+    from fmu_src.effect_check import imported
+
+    module = imported(file.absolute(), file.absolute().parent.name)[0]
+    if module is None or not module.EFFECT.signals:
+        return []
+    with task(f"holding the signals of {file.name} against what it changes"):
+        return signal_doubts(file.absolute())
 
 
 def unknown_words(file: Path) -> "list[Finding]":

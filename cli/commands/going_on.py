@@ -71,7 +71,7 @@ def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: boo
     for key in ("data", "output", "fmus", "html"):
         if (given := getattr(options, key)) is not None:
             words += [f"--{key}", given]
-    words += [f"--{key}" for key in ("json",) if getattr(options, key)]
+    words += [f"--{key}" for key in ("json", "overwrite") if getattr(options, key)]
     return shlex.join(words + ["--anyway"] * (anyway or options.anyway))
 
 

@@ -23,7 +23,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
     loop = sub.add_parser("hysteresis", help="input locked, torque up and down: lost motion and stiffness")
     add_reducer_options(loop)
-    loop.add_argument("--steps", type=int, default=16, help="torques per quarter of the loop, closer near none and near the largest (default 16)")
+    loop.add_argument("--steps", type=int, default=16,
+                      help="torques per quarter of the loop, closer near the largest; up to 6 %% of it always every 0.5 %% (default 16)")
     places = loop.add_mutually_exclusive_group()
     places.add_argument("--angles", type=int, default=16, help="positions of the input over a turn of the cranks, averaged (default 16)")
     places.add_argument("--locked-at", type=number_in("deg"), metavar="ANGLE",

@@ -111,11 +111,11 @@ at these stages, each of them for all effects before the next begins:
 
 STAGES
 
-What `prepare` changes stands until an amplitude is set again; an input that it reads (`r.load_torque`, `r.input_speed`) would be that of the start, and
-is refused: a law that follows the load adds a force in `hold` or changes a gap in `before`. A stiffness (`mesh_constant`, `pin_stiffness`, `roller_constant`) can so depend on
-the temperature of the surroundings at the start of a run (`r.temperature`), as the conditions of a campaign state it, each of which is a run of its
-own; a temperature that changes during a run (`reducer_temperature`) acts through what `before` changes, gaps and the ring's size, and leaves
-stiffnesses as they were.
+What `prepare` changes stands until an amplitude is set again; an input that it reads (`r.load_torque`, `r.input_speed`) would be that of the start,
+and is refused: a law that follows the load adds a force in `hold` or changes a gap in `before`. A stiffness (`mesh_constant`, `pin_stiffness`,
+`roller_constant`) can so depend on the temperature of the surroundings at the start of a run (`r.temperature`), as the conditions of a campaign
+state it, each of which is a run of its own; a temperature that changes during a run (`reducer_temperature`) acts through what `before` changes,
+gaps and the ring's size, and leaves stiffnesses as they were.
 
 Each of the fields, by what its indices count. Places and directions are those of a drawing with the ring's centre at the origin and
 angles counter-clockwise, at output angle 0; a disc's lobes are counted in its own frame.

@@ -227,6 +227,7 @@ def refusal_as_run_fault() -> Iterator[None]:
 
 def require_units_of(model: ModelFile, unit: Fmu, name: str) -> None:
     """An FMU is that of the model's reducer, or of the extended model; the rest is set at each run."""
-    extended = extended_reducer(model)
+    # What the extended model is called hangs on its file's name, by which no value is another.
+    extended = replace(extended_reducer(model), name=unit.specification()["reducer"])
     built_extended = unit.specification() == extended.specification(name)
     require_built_from(extended if built_extended else model.reducer, unit, name)
