@@ -32,7 +32,8 @@ EFFECT = Effect(
         amplitude("lobe_pitch_scatter", "m", "scatter of the pitch, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
         shape("disc_pairing", "1", "0: both discs carry the same error, 1: opposed ones", 1.0, 0.0, 1.0, "assumed: unpaired", held=True),
     ),
-    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
+    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion",
+             "hysteresis", "torsional_stiffness", "no_load_torque", "efficiency"),
 )
 
 

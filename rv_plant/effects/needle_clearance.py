@@ -16,7 +16,7 @@ EFFECT = Effect(
     "order 80 of the output (0.55, 6.8, 12.7, 24 arcsec peak to peak at 0, 2.5, 5, 10 um), mean lag + 20 arcsec/um;"
     " nearly independent of load from a tenth of a N m on; with exactly none the output floats and shows nothing",
     (amplitude("needle_clearance_added", "m", "radial clearance beyond the file's", 1 * UM, -15 * UM, 30 * UM),),
-    signals=("transmission_error", "lost_motion", "hysteresis", "vibration", "wear_profile", "wear_depth"),
+    signals=("transmission_error", "lost_motion", "hysteresis", "vibration", "wear_profile", "wear_depth", "no_load_torque"),
 )
 
 

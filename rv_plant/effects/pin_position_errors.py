@@ -43,7 +43,8 @@ EFFECT = Effect(
         choice("proud_pin_number", "which pin is proud"),
         amplitude("pin_scatter", "m", "scatter of the pins' radial places, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
     ),
-    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
+    signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion",
+             "hysteresis", "torsional_stiffness", "no_load_torque", "efficiency"),
 )
 
 

@@ -23,7 +23,7 @@ EFFECT = Effect(
         amplitude("equidistant_added", "m", "equidistant modification beyond the file's", 5 * UM, -60 * UM, 60 * UM),
         amplitude("shift_added", "m", "shift modification beyond the file's (negative: gap)", 5 * UM, -60 * UM, 60 * UM),
     ),
-    signals=("transmission_error", "lost_motion", "hysteresis", "torsional_stiffness", "wear_profile", "wear_depth"),
+    signals=("transmission_error", "lost_motion", "hysteresis", "torsional_stiffness", "wear_profile", "wear_depth", "efficiency"),
 )
 
 

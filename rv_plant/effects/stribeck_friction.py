@@ -47,7 +47,7 @@ EFFECT = Effect(
         Variable("held_last", "state", "N.m", "what friction could hold at the last equilibrium before this"),
         Variable("held_turn", "state", "rad", "turning of the carrier in the ring at the last equilibrium"),
     ),
-    signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature"),
+    signals=("input_torque", "efficiency", "hysteresis", "lost_motion", "no_load_torque", "temperature", "torsional_stiffness"),
 )
 
 

@@ -30,7 +30,7 @@ EFFECT = Effect(
               "assumed: room temperature", held=True),
     ),
     states=(Variable("housing_temperature", "state", "K", "temperature reached with the time constant of warming"),),
-    signals=("lost_motion", "hysteresis", "transmission_error", "torsional_stiffness", "temperature"),
+    signals=("lost_motion", "hysteresis", "transmission_error", "torsional_stiffness", "temperature", "input_torque", "efficiency"),
 )
 
 

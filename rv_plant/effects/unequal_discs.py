@@ -37,7 +37,7 @@ EFFECT = Effect(
         _difference("disc_pitch_difference", "teeth along the pitch", "teeth"),
         _difference("disc_clearance_difference", "radial clearance of the bearings", "clearance"),
     ),
-    signals=("transmission_error", "vibration", "lost_motion", "hysteresis", "input_torque"),
+    signals=("transmission_error", "vibration", "lost_motion", "hysteresis", "input_torque", "no_load_torque", "efficiency"),
 )  # fmt: skip
 
 
