@@ -23,6 +23,8 @@ ABSOLUTE_ZERO = -273.15
 # From here on a number in kelvin is a temperature and no difference of two: no test rig warms by so much (assumed).
 TEMPERATURE = 150.0
 ARCMIN, DEGREE = math.pi / 180.0 / 60.0, math.pi / 180.0
+# From here on a length is that of a part and no error of one.
+MILLIMETRE = 1e-3
 # An angle is told in the next larger unit from this many on.
 MANY = 120.0
 
@@ -61,6 +63,8 @@ def of_parameter(size: float, unit: str, direction: bool = False) -> Scale:
         return Scale(1.0, "degC", ABSOLUTE_ZERO) if size > TEMPERATURE else Scale(1.0, unit)
     if unit == "s" and size >= 3600.0:
         return Scale(1.0 / 3600.0, "h")
+    if unit == "m" and size >= MILLIMETRE:
+        return Scale(1e3, "mm")
     if unit in USUAL:
         return Scale(conversion(unit, USUAL[unit])[0], USUAL[unit])
     try:

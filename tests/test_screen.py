@@ -88,6 +88,7 @@ def test_signals_and_axes_have_the_units_of_the_field():
     assert of_signal("torsional_stiffness", "N.m/rad").unit == "N.m/arcmin" and of_signal(SIGNAL, "m").text(2e-6) == "2 um"
     assert of_signal("temperature", "K").text(2.0) == "2 K" and of_axis("hours").text(3.6e6) == "1000 h"
     assert of_parameter(0.0, "rad").text(0.0) == "0 arcsec"
+    assert of_parameter(0.028, "m").text(0.027933, 4) == "27.93 mm" and of_parameter(5e-6, "m").text(5e-6) == "5 um"
 
 
 def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None, kind=None):
