@@ -749,6 +749,31 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
 
 
+def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_shown(bench):
+    """400 became 30 with neither the range nor a unit; the words stayed when the slider was moved."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { entry } = await import('./static/try_effects.js'), values = {};
+      const p = { name: 'disc_hole_shift_1', unit: 'µm', factor: 1e6, offset: 0, off: 0, low: -15, high: 15, bounds: [-30, 30], amplitude: true, description: '' };
+      const item = entry({ title: 'holes', parameters: [p] }, { values, open: true, drawList: () => {}, follow: () => {} });
+      const [range, field] = item.querySelectorAll('input'), said = [];
+      const give = (input, text, event) => {
+        input.value = text;
+        input.dispatchEvent(new Event(event));
+        said.push([field.value, item.querySelector('[role=status]').textContent, Math.round(1e6 * (values.disc_hole_shift_1 ?? 0))]);
+      };
+      give(field, '400', 'change');
+      give(field, '20', 'change');
+      give(field, '-30.001', 'change');
+      give(range, '4', 'input');
+      return [said, field.nextElementSibling.getAttribute('role')];
+    }""")
+    bounds = "must lie in [−30, 30] µm"
+    assert told == [
+        [["30", f"400 µm {bounds}; 30 µm is shown", 30], ["20", "", 20], ["-30", f"−30.001 µm {bounds}; −30 µm is shown", -30], ["4", "", 4]], "status"
+    ]
+
+
 @pytest.mark.campaign
 def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench, tmp_path):
     page = dropped(bench, tmp_path)
