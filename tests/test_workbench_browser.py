@@ -684,6 +684,43 @@ def test_a_life_of_another_model_says_so(bench):
     assert "they have changed since" in said[2][0]
 
 
+def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typed_since_stays(bench):
+    """After a reload 10000 stood beside a life of 6000 h, and a paused one would have begun anew."""
+    page = bench.page
+    page.goto(bench.address)
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    row = {"name": "disc.lobe_radius", "unit": "mm", "distribution": "uniform", "first": "1", "second": "2"}
+    said = page.evaluate(
+        """async (row) => {
+      const { show } = await import('./static/life.js'), place = document.getElementById('view'), asked = [];
+      const given = { model: 'RV20E-121', hours: '6000', torque: '120' };
+      const many = { ...given, samples: '4', limits: { disc_flank_um: '5' }, scatters: [row] };
+      const state = { view: { model: 'RV20E-121' }, jobs: { life: { state: 'done', result: true, begun: 1, given }, ensemble: { state: 'done', result: false, begun: 2, given: many } } };
+      const context = { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '', act: (promise) => promise, start: (kind, fields) => asked.push(fields) };
+      place.replaceChildren();
+      const view = show(place, context), until = async (fits) => { for (let k = 0; k < 200 && !fits(); k++) await new Promise((done) => setTimeout(done, 50)); };
+      const fields = () => [...place.querySelectorAll('.row')[0].querySelectorAll('input')].map((field) => field.value), said = [fields()];
+      place.querySelector('#ensemble').open = true;
+      await until(() => place.querySelector('#ensemble-run:enabled'));
+      place.querySelector('#ensemble-run').click();
+      const hours = place.querySelector('#hours');
+      hours.value = '7000';
+      hours.dispatchEvent(new Event('change'));
+      state.jobs.life.tasks = [{ done: 1 }];
+      view.update(state);
+      await until(() => place.querySelector('h1'));
+      said.push(fields());
+      state.jobs.life = { ...state.jobs.life, begun: 3, given: { model: 'RV20E-121', hours: '', torque: '' } };
+      view.update(state);
+      await until(() => fields()[0] !== '7000');
+      return [...said, fields(), asked];
+    }""",
+        row,
+    )
+    many = {"hours": "6000", "samples": "4", "limits": {"lost_motion_arcmin": "", "disc_flank_um": "5"}, "scatters": [row]}
+    assert said == [["6000", "120"], ["7000", "120"], ["10000", ""], [many]]
+
+
 @pytest.mark.campaign
 def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
