@@ -434,6 +434,15 @@ def test_numbers_have_as_many_decimals_as_their_noise():
     assert told == ["424.773", "4.18·10⁻⁶", "5.728·10⁷", "0", "0.00"]
 
 
+def test_look_has_the_errors_of_a_signal_as_compare_has_them():
+    from discrepancy.compare import by_signal
+    from workbench.look import errors_of
+
+    runs = [{"signal": signal, "held_out": held_out, "unit": "rad", "error": error, "noise_floor": floor}
+            for signal, held_out, error, floor in (("te", True, 6.0, 2.0), ("te", False, 3.0, 1.0), ("te", False, 4.0, 7.0), ("loop", False, 1.0, 1.0))]  # fmt: skip
+    assert [(error["held_out"], round(error["ratio"], 6)) for error in errors_of("te", by_signal(runs))] == [(False, 0.707107), (True, 3.0)]
+
+
 def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     from discrepancy.problem import Parameter
     from workbench.trying import around, slider

@@ -592,6 +592,30 @@ def test_what_is_significant_is_no_share_of_nothing(bench):
     assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
 
 
+def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):
+    """15 was the worst run's, beside a card of 14.1; of a condition it is the root mean square over its repetitions."""
+    page = bench.page
+    page.goto(bench.address)
+    run = {"run": "r", "condition": "c", "replicate": 1, "held_out": False, "mounting": "1", "samples": 3, "dots": True, "noise": 1, "zero": 0}
+    places = {name: {"from": 0, "count": 3} for name in ("x", "measured", "predicted", "residual")}
+    signal = {"signal": "transmission_error", "title": "transmission error", "unit": "arcsec", "held_out": True, "singles": [], "loop": False, "spectra": [],
+              "axis": {"name": "angle", "title": "angle"}, "errors": [{"ratio": 14.12, "held_out": False}, {"ratio": 13.96, "held_out": True}],
+              "runs": [run | places | {"ratio": 15.0}, run | places | {"ratio": 13.0, "run": "s"}]}  # fmt: skip
+    result = {"model": "RV20E-121", "begun": 1, "signals": [signal], "places": [], "orders": {}, "figures": [], "doubts": [], "warnings": [], "cards": [],
+              "calibrated": [], "title": "", "finding": "", "conditions": "", "nuisances": {}, "command": ""}  # fmt: skip
+    page.route("**/results/compare", lambda route: route.fulfill(json=result))
+    page.route("**/results/compare/columns", lambda route: route.fulfill(body=bytes(12)))
+    told = page.evaluate("""async () => {
+      const { show } = await import('./static/look.js'), place = document.getElementById('view');
+      const state = { saved: true, jobs: { compare: { state: 'done', result: true, begun: 1 } }, models: [], library: [] };
+      place.replaceChildren();
+      show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span'), act: (promise) => promise }).update(state);
+      for (let k = 0; k < 100 && !place.querySelector('#signals'); k++) await new Promise((done) => setTimeout(done, 50));
+      return [...place.querySelectorAll('.chips button')].map((button) => button.textContent);
+    }""")
+    assert told == ["transmission error 14.1×, held out 14.0×", "c 14.0×"]
+
+
 def test_a_sample_aside_stretches_no_axis(bench):
     page = bench.page
     page.goto(bench.address)
