@@ -532,9 +532,35 @@ def test_a_reducer_says_at_which_speed_it_runs_beside_that_of_its_rating(tmp_pat
     from workbench.reducers import shown
 
     found = shown(opened(tmp_path), "RV20E-121")["reducer"]
-    assert "at 15 rpm" in found["description"] and found["speed"] == (
+    assert "at 15 rpm" in found["lead"] and found["speed"] == (
         "runs at 2,000 rpm at the input, 16.5 rpm at the output (document, table 2; the catalogue rates at 15 rpm of the output)"
     )
+
+
+def test_the_reducer_of_a_model_file_is_the_model_with_its_effects_and_their_numbers_stand_in_the_list(tmp_path):
+    """Title and text were the base reducer's, and what the effect carries stood nowhere; what is set on it was the reducer's, too."""
+    from workbench.reducers import shown
+
+    folder = opened(tmp_path)
+    (folder.root / "model.toml").write_text("""[model]
+name = "RV20E-121"
+reducer = "RV20E-121"
+[settings]
+bearing.clearance = "3 um"
+[effects.hole_position_errors]
+disc_hole_shift_1 = {value = 4.0, unit = "um", low = 3.995, high = 4.005}
+[effects.sensor_drift]
+sensor_drift = { value = 0.02 }
+""", encoding="utf-8")  # fmt: skip
+    found = shown(folder, "model.toml")["reducer"]
+    effects = "RV20E-121 with hole position errors, sensor drift"
+    assert found["title"] == "model.toml (RV20E-121) with hole position errors, sensor drift" and found["lead"].startswith(f"The model is {effects}. Of the reducer: ")
+    rows = {row["name"]: (row["value"], row["unit"], row["source"]) for row in (*found["added"], *found["numbers"])}
+    assert rows["effects.hole_position_errors.disc_hole_shift_1"] == ("4.0000", "um", "model.toml, interval 3.9950 to 4.0050")
+    assert rows["effects.sensor_drift.sensor_drift"] == ("0.020000", "", "model.toml")
+    assert rows["bearing.clearance"] == ("3.0000", "um", "model RV20E-121")
+    plain = shown(folder, "RV20E-121")["reducer"]
+    assert plain["title"] == "RV20E-121" and plain["added"] == [] and not plain["lead"].startswith("The model is")
 
 
 def test_numbers_given_are_counted_as_the_command_line_does(tmp_path):

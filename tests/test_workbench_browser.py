@@ -642,6 +642,17 @@ def test_a_reducer_that_is_read_says_so(bench):
     assert page.get_by_text("Reading the reducer…").count() == 0
 
 
+def test_the_reducer_view_of_a_model_file_names_its_effects_and_has_their_numbers_first(bench):
+    text = '[model]\nname = "better"\nreducer = "RV20E-121-rigid"\n[effects.thermal_expansion]\nexpansion = "2e-6 1/K"\n'
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    bench.page.goto(f"{bench.address}#reducer")
+    bench.page.locator("label", has_text="reducer").locator("select").select_option("model.toml")
+    bench.page.locator("h1", has_text="model.toml (better) with thermal expansion").wait_for()
+    first = bench.page.locator("tbody tr").first.inner_text()
+    assert "effects.thermal_expansion.expansion" in first and "1/K" in first
+    assert bench.page.locator("p.lead").inner_text().startswith("The model is RV20E-121-rigid with thermal expansion.")
+
+
 def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
     """Neither while the next one is still fetched nor when what the former waited for comes at last."""
     page, held = dropped(bench, tmp_path), {}
