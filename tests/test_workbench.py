@@ -542,12 +542,14 @@ def test_the_reducer_of_a_model_file_is_the_model_with_its_effects_and_their_num
     from workbench.reducers import shown
 
     folder = opened(tmp_path)
-    (folder.root / "model.toml").write_text("""[model]
+    base = """[model]
 name = "RV20E-121"
 reducer = "RV20E-121"
 [settings]
 bearing.clearance = "3 um"
-[effects.hole_position_errors]
+"""
+    (folder.root / "without.toml").write_text(base, encoding="utf-8")
+    (folder.root / "model.toml").write_text(base + """[effects.hole_position_errors]
 disc_hole_shift_1 = {value = 4.0, unit = "um", low = 3.995, high = 4.005}
 [effects.sensor_drift]
 sensor_drift = { value = 0.02 }
@@ -560,6 +562,9 @@ sensor_drift = { value = 0.02 }
     assert rows["effects.sensor_drift.sensor_drift"] == ("0.020000", "", "model.toml")
     assert rows["bearing.clearance"] == ("3.0000", "um", "model RV20E-121")
     plain = shown(folder, "RV20E-121")["reducer"]
+    # Drawn with the forces that it has.
+    carried = [int(shown(folder, name)["reducer"]["figures"][1]["caption"].split()[5]) for name in ("without.toml", "model.toml")]
+    assert carried[1] > carried[0] + 5
     assert plain["title"] == "RV20E-121" and plain["added"] == [] and not plain["lead"].startswith("The model is")
 
 

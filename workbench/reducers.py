@@ -49,8 +49,7 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        # Effects beside the numbers, not among them: what scatters in many lives is chosen from these.
-        found["reducer"] = described(extended_reducer(replace(file, effects={}))) | headed(file) | {"added": added(file)}
+        found["reducer"] = described(file) | headed(file) | {"added": added(file)}
     return found
 
 
@@ -83,13 +82,15 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
     return rows
 
 
-def described(reducer: Reducer) -> dict[str, Any]:
-    whole = assembly(reducer, None)
+def described(file: ModelFile) -> dict[str, Any]:
+    """Drawn as it is, effects included; these stand beside its numbers, not among them: what scatters in many lives is chosen from the numbers."""
+    drawn, reducer = extended_reducer(file), extended_reducer(replace(file, effects={}))
+    whole = assembly(drawn, None)
     t = reducer.topology
     return {
         "speed": speed_of(reducer),
         "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
-        "figures": [figure_data(whole), figure_data(zoom(whole, reducer))], "numbers": numbers(reducer), "findings": findings(reducer),
+        "figures": [figure_data(whole), figure_data(zoom(whole, drawn))], "numbers": numbers(reducer), "findings": findings(reducer),
     }  # fmt: skip
 
 
