@@ -119,6 +119,12 @@ class ModelFile:
         """What a result of it is called: its name, which may be its reducer's, and that of its file; fit for file names."""
         return self.name if self.path is None or self.path.stem == self.name else f"{self.name}-{self.path.stem}"
 
+    @property
+    def in_words(self) -> str:
+        """What measurements are held against: the model with its effects by name, or the base model where it has none."""
+        effects = ", ".join(name.replace("_", " ") for name in self.effects)
+        return f"the model with {effects}" if effects else "the base model"
+
     def values(self) -> dict[str, float]:
         """Everything that differs from the reducer file: settings and effects' parameters."""
         found = dict(self.settings)

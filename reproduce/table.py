@@ -10,6 +10,7 @@ from rich.text import Text
 
 from exports.tables import Table as Export
 from exports.tables import rows_table
+from fmu_src.percent import percent
 from pages.look import Figure
 from reproduce.claim import CONDITIONAL, CONTRADICTED, FALLEN, NOT_TESTABLE, REPRODUCED, Audited, Claim, Number, counts_of
 
@@ -55,7 +56,7 @@ def unit_text(number: Number) -> str:
 
 def off_text(number: Number) -> str:
     """How far the number is off the independent check, and in brackets what is allowed; nothing where that is 0."""
-    return "" if math.isnan(number.off) else f"{100.0 * number.off:+.3g} % ({100.0 * number.tolerance:.3g} %)"
+    return "" if math.isnan(number.off) else f"{percent(number.off, 3, '+')} ({percent(number.tolerance, 3)})"
 
 
 def print_table(claims: list[Claim]) -> None:

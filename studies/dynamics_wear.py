@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.faults import InputFault
+from fmu_src.percent import percent
 from orchestrator.settings import Setting, parse_setting
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
@@ -68,7 +69,7 @@ class Comparison:
     def sentence(self) -> str:
         """Where dynamics matters, in words."""
         same = [p.name for p in self.points if p.largest <= self.limit]
-        other = [f"{p.name} ({p.largest:.3g} %)" for p in self.matters]
+        other = [f"{p.name} ({percent(0.01 * p.largest, 3)})" for p in self.matters]
         agree = f"Both agree within {self.limit:g} % at {', '.join(same)}. " if same else ""
         differ = f"Dynamics changes wear by more at {', '.join(other)}." if other else "Dynamics matters nowhere here."
         return agree + differ

@@ -9,6 +9,7 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
 from cli.main import main
+from discrepancy.campaign.guess.conditions import joined
 from discrepancy.campaign.guess.file_names import proposed
 from discrepancy.campaign.guess.given_names import by_pattern
 from discrepancy.campaign.guess.propose import propose
@@ -27,6 +28,15 @@ def loop_files(folder, *names):
     for name in names:
         pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN}).to_csv(folder / f"{name}.csv", index=False)
     return folder
+
+
+def test_names_of_conditions_keep_degrees(tmp_path):
+    """``entrée_bloquée_à_90``, of which nobody knows what 90 is."""
+    names = [f"Hystérésis entrée bloquée à {angle} essai {k}" for angle in ("0°", "90 °") for k in (1, 2)]
+    proposal = propose([loop_files(tmp_path, *names)], Wishes("RV20E-121"))
+    assert {name: stated["locked_at"] for name, stated in proposal.conditions.items()} == {"entrée_bloquée_à_0deg": "0 deg", "entrée_bloquée_à_90deg": "90 deg"}
+    # Of other signs of the kind not all are degrees.
+    assert [joined([text]) for text in ("bloqueado a 90º", "1º bloque", "n° 3", "80 %")] == ["bloqueadoa90deg", "1ºbloque", "n3", "80pct"]
 
 
 @pytest.mark.parametrize("name, load, pattern", [

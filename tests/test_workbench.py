@@ -434,6 +434,15 @@ def test_numbers_have_as_many_decimals_as_their_noise():
     assert told == ["424.773", "4.18·10⁻⁶", "5.728·10⁷", "0", "0.00"]
 
 
+def test_look_has_the_errors_of_a_signal_as_compare_has_them():
+    from discrepancy.compare import by_signal
+    from workbench.look import errors_of
+
+    runs = [{"signal": signal, "held_out": held_out, "unit": "rad", "error": error, "noise_floor": floor}
+            for signal, held_out, error, floor in (("te", True, 6.0, 2.0), ("te", False, 3.0, 1.0), ("te", False, 4.0, 7.0), ("loop", False, 1.0, 1.0))]  # fmt: skip
+    assert [(error["held_out"], round(error["ratio"], 6)) for error in errors_of("te", by_signal(runs))] == [(False, 0.707107), (True, 3.0)]
+
+
 def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     from discrepancy.problem import Parameter
     from workbench.trying import around, slider
@@ -523,9 +532,40 @@ def test_a_reducer_says_at_which_speed_it_runs_beside_that_of_its_rating(tmp_pat
     from workbench.reducers import shown
 
     found = shown(opened(tmp_path), "RV20E-121")["reducer"]
-    assert "at 15 rpm" in found["description"] and found["speed"] == (
+    assert "at 15 rpm" in found["lead"] and found["speed"] == (
         "runs at 2,000 rpm at the input, 16.5 rpm at the output (document, table 2; the catalogue rates at 15 rpm of the output)"
     )
+
+
+def test_the_reducer_of_a_model_file_is_the_model_with_its_effects_and_their_numbers_stand_in_the_list(tmp_path):
+    """Title and text were the base reducer's, and what the effect carries stood nowhere; what is set on it was the reducer's, too."""
+    from workbench.reducers import shown
+
+    folder = opened(tmp_path)
+    base = """[model]
+name = "RV20E-121"
+reducer = "RV20E-121"
+[settings]
+bearing.clearance = "3 um"
+"""
+    (folder.root / "without.toml").write_text(base, encoding="utf-8")
+    (folder.root / "model.toml").write_text(base + """[effects.hole_position_errors]
+disc_hole_shift_1 = {value = 4.0, unit = "um", low = 3.995, high = 4.005}
+[effects.sensor_drift]
+sensor_drift = { value = 0.02 }
+""", encoding="utf-8")  # fmt: skip
+    found = shown(folder, "model.toml")["reducer"]
+    effects = "RV20E-121 with hole position errors, sensor drift"
+    assert found["title"] == "model.toml (RV20E-121) with hole position errors, sensor drift" and found["lead"].startswith(f"The model is {effects}. Of the reducer: ")
+    rows = {row["name"]: (row["value"], row["unit"], row["source"]) for row in (*found["added"], *found["numbers"])}
+    assert rows["effects.hole_position_errors.disc_hole_shift_1"] == ("4.0000", "um", "model.toml, interval 3.9950 to 4.0050")
+    assert rows["effects.sensor_drift.sensor_drift"] == ("0.020000", "", "model.toml")
+    assert rows["bearing.clearance"] == ("3.0000", "um", "model RV20E-121")
+    plain = shown(folder, "RV20E-121")["reducer"]
+    # Drawn with the forces that it has.
+    carried = [int(shown(folder, name)["reducer"]["figures"][1]["caption"].split()[5]) for name in ("without.toml", "model.toml")]
+    assert carried[1] > carried[0] + 5
+    assert plain["title"] == "RV20E-121" and plain["added"] == [] and not plain["lead"].startswith("The model is")
 
 
 def test_numbers_given_are_counted_as_the_command_line_does(tmp_path):

@@ -592,6 +592,30 @@ def test_what_is_significant_is_no_share_of_nothing(bench):
     assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
 
 
+def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):
+    """15 was the worst run's, beside a card of 14.1; of a condition it is the root mean square over its repetitions."""
+    page = bench.page
+    page.goto(bench.address)
+    run = {"run": "r", "condition": "c", "replicate": 1, "held_out": False, "mounting": "1", "samples": 3, "dots": True, "noise": 1, "zero": 0}
+    places = {name: {"from": 0, "count": 3} for name in ("x", "measured", "predicted", "residual")}
+    signal = {"signal": "transmission_error", "title": "transmission error", "unit": "arcsec", "held_out": True, "singles": [], "loop": False, "spectra": [],
+              "axis": {"name": "angle", "title": "angle"}, "errors": [{"ratio": 14.12, "held_out": False}, {"ratio": 13.96, "held_out": True}],
+              "runs": [run | places | {"ratio": 15.0}, run | places | {"ratio": 13.0, "run": "s"}]}  # fmt: skip
+    result = {"model": "RV20E-121", "begun": 1, "signals": [signal], "places": [], "orders": {}, "figures": [], "doubts": [], "warnings": [], "cards": [],
+              "calibrated": [], "title": "", "finding": "", "conditions": "", "nuisances": {}, "command": ""}  # fmt: skip
+    page.route("**/results/compare", lambda route: route.fulfill(json=result))
+    page.route("**/results/compare/columns", lambda route: route.fulfill(body=bytes(12)))
+    told = page.evaluate("""async () => {
+      const { show } = await import('./static/look.js'), place = document.getElementById('view');
+      const state = { saved: true, jobs: { compare: { state: 'done', result: true, begun: 1 } }, models: [], library: [] };
+      place.replaceChildren();
+      show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span'), act: (promise) => promise }).update(state);
+      for (let k = 0; k < 100 && !place.querySelector('#signals'); k++) await new Promise((done) => setTimeout(done, 50));
+      return [...place.querySelectorAll('.chips button')].map((button) => button.textContent);
+    }""")
+    assert told == ["transmission error 14.1×, held out 14.0×", "c 14.0×"]
+
+
 def test_a_sample_aside_stretches_no_axis(bench):
     page = bench.page
     page.goto(bench.address)
@@ -616,6 +640,17 @@ def test_a_reducer_that_is_read_says_so(bench):
     held[0].continue_()
     page.get_by_text("Choose a reducer, or complete one").wait_for()
     assert page.get_by_text("Reading the reducer…").count() == 0
+
+
+def test_the_reducer_view_of_a_model_file_names_its_effects_and_has_their_numbers_first(bench):
+    text = '[model]\nname = "better"\nreducer = "RV20E-121-rigid"\n[effects.thermal_expansion]\nexpansion = "2e-6 1/K"\n'
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    bench.page.goto(f"{bench.address}#reducer")
+    bench.page.locator("label", has_text="reducer").locator("select").select_option("model.toml")
+    bench.page.locator("h1", has_text="model.toml (better) with thermal expansion").wait_for()
+    first = bench.page.locator("tbody tr").first.inner_text()
+    assert "effects.thermal_expansion.expansion" in first and "1/K" in first
+    assert bench.page.locator("p.lead").inner_text().startswith("The model is RV20E-121-rigid with thermal expansion.")
 
 
 def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
@@ -684,6 +719,43 @@ def test_a_life_of_another_model_says_so(bench):
     assert "they have changed since" in said[2][0]
 
 
+def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typed_since_stays(bench):
+    """After a reload 10000 stood beside a life of 6000 h, and a paused one would have begun anew."""
+    page = bench.page
+    page.goto(bench.address)
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    row = {"name": "disc.lobe_radius", "unit": "mm", "distribution": "uniform", "first": "1", "second": "2"}
+    said = page.evaluate(
+        """async (row) => {
+      const { show } = await import('./static/life.js'), place = document.getElementById('view'), asked = [];
+      const given = { model: 'RV20E-121', hours: '6000', torque: '120' };
+      const many = { ...given, samples: '4', limits: { disc_flank_um: '5' }, scatters: [row] };
+      const state = { view: { model: 'RV20E-121' }, jobs: { life: { state: 'done', result: true, begun: 1, given }, ensemble: { state: 'done', result: false, begun: 2, given: many } } };
+      const context = { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '', act: (promise) => promise, start: (kind, fields) => asked.push(fields) };
+      place.replaceChildren();
+      const view = show(place, context), until = async (fits) => { for (let k = 0; k < 200 && !fits(); k++) await new Promise((done) => setTimeout(done, 50)); };
+      const fields = () => [...place.querySelectorAll('.row')[0].querySelectorAll('input')].map((field) => field.value), said = [fields()];
+      place.querySelector('#ensemble').open = true;
+      await until(() => place.querySelector('#ensemble-run:enabled'));
+      place.querySelector('#ensemble-run').click();
+      const hours = place.querySelector('#hours');
+      hours.value = '7000';
+      hours.dispatchEvent(new Event('change'));
+      state.jobs.life.tasks = [{ done: 1 }];
+      view.update(state);
+      await until(() => place.querySelector('h1'));
+      said.push(fields());
+      state.jobs.life = { ...state.jobs.life, begun: 3, given: { model: 'RV20E-121', hours: '', torque: '' } };
+      view.update(state);
+      await until(() => fields()[0] !== '7000');
+      return [...said, fields(), asked];
+    }""",
+        row,
+    )
+    many = {"hours": "6000", "samples": "4", "limits": {"lost_motion_arcmin": "", "disc_flank_um": "5"}, "scatters": [row]}
+    assert said == [["6000", "120"], ["7000", "120"], ["10000", ""], [many]]
+
+
 @pytest.mark.campaign
 def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
@@ -747,6 +819,31 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     # The words about an effect are those of all its forms: these are listed below it.
     listed = page.locator("ul.list > li > details > summary").all_inner_texts()
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
+
+
+def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_shown(bench):
+    """400 became 30 with neither the range nor a unit; the words stayed when the slider was moved."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { entry } = await import('./static/try_effects.js'), values = {};
+      const p = { name: 'disc_hole_shift_1', unit: 'µm', factor: 1e6, offset: 0, off: 0, low: -15, high: 15, bounds: [-30, 30], amplitude: true, description: '' };
+      const item = entry({ title: 'holes', parameters: [p] }, { values, open: true, drawList: () => {}, follow: () => {} });
+      const [range, field] = item.querySelectorAll('input'), said = [];
+      const give = (input, text, event) => {
+        input.value = text;
+        input.dispatchEvent(new Event(event));
+        said.push([field.value, item.querySelector('[role=status]').textContent, Math.round(1e6 * (values.disc_hole_shift_1 ?? 0))]);
+      };
+      give(field, '400', 'change');
+      give(field, '20', 'change');
+      give(field, '-30.001', 'change');
+      give(range, '4', 'input');
+      return [said, field.nextElementSibling.getAttribute('role')];
+    }""")
+    bounds = "must lie in [−30, 30] µm"
+    assert told == [
+        [["30", f"400 µm {bounds}; 30 µm is shown", 30], ["20", "", 20], ["-30", f"−30.001 µm {bounds}; −30 µm is shown", -30], ["4", "", 4]], "status"
+    ]
 
 
 @pytest.mark.campaign

@@ -63,7 +63,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
-        "signals": [signal(name, members, columns, ratios, named) for name, members in by_signal(runs).items()],
+        "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
@@ -128,6 +128,11 @@ def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str
         told["runs"] = [drawn(run, factor, columns, ratios) for run in series if axis_of(run) == axis]
         told["spectra"] = orders_of([run for run in series if run.series], factor, named)
     return told
+
+
+def errors_of(name: str, rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Of a signal its error in times the noise as the table of a comparison has it, fitted runs before held-out ones."""
+    return [{"ratio": row["ratio"], "held_out": row["held_out"]} for row in rows if row["signal"] == name]
 
 
 def over_an_axis(run: Run) -> bool:

@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from discrepancy.model_file import load_model
+from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
+from discrepancy.page import amounts
+from discrepancy.written_number import written_entry
 from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault, RunFault
@@ -47,19 +49,48 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        found["reducer"] = described(file.reducer)
-        found["carries"] = list(file.effects)
+        found["reducer"] = described(file) | headed(file) | {"added": added(file)}
     return found
 
 
-def described(reducer: Reducer) -> dict[str, Any]:
-    whole = assembly(reducer, None)
+def headed(file: ModelFile) -> dict[str, str]:
+    """What it is: of a model file with effects that it is a model with them."""
+    description = file.reducer.description
+    if not file.effects:
+        return {"title": file.heading, "lead": description}
+    effects = ", ".join(amounts.effect_title(name) for name in file.effects)
+    return {"title": f"{file.heading} with {effects}", "lead": f"The model is {file.reducer.name} with {effects}. Of the reducer: {description}"}
+
+
+def added(file: ModelFile) -> list[dict[str, Any]]:
+    """Rows as of ``numbers`` for what the model's effects carry, elements of arrays and those of the measuring chain, too."""
+    known, rows = every_effect(), []
+    for name, parameters in file.effects.items():
+        for key, entry in parameters.items():
+            variable = parameter_variable(known[name], key)
+            if variable.choices:
+                told, unit = {"value": variable.choices[int(entry["value"])]}, ""
+            else:
+                written = written_entry(variable, entry)
+                unit = written["unit"]
+                told = {k: number(float(written[k]), 5) for k in ("value", "low", "high") if k in written}
+            interval = f", interval {told['low']} to {told['high']}" if {"low", "high"} <= told.keys() else ""
+            rows.append({
+                "name": f"effects.{name}.{written_name(known[name], key)}", "value": told["value"], "unit": "" if unit == "1" else unit, "range": "",
+                "meaning": variable.description, "source": f"{file.path.name if file.path else file.name}{interval}", "assumed": False, "outside": False,
+            })  # fmt: skip
+    return rows
+
+
+def described(file: ModelFile) -> dict[str, Any]:
+    """Drawn as it is, effects included; these stand beside its numbers, not among them: what scatters in many lives is chosen from the numbers."""
+    drawn, reducer = extended_reducer(file), extended_reducer(replace(file, effects={}))
+    whole = assembly(drawn, None)
     t = reducer.topology
     return {
-        "name": reducer.name, "description": reducer.description,
         "speed": speed_of(reducer),
         "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
-        "figures": [figure_data(whole), figure_data(zoom(whole, reducer))], "numbers": numbers(reducer), "findings": findings(reducer),
+        "figures": [figure_data(whole), figure_data(zoom(whole, drawn))], "numbers": numbers(reducer), "findings": findings(reducer),
     }  # fmt: skip
 
 

@@ -68,17 +68,17 @@ def show_comparison(comparison: Comparison) -> None:
     out.print(table)
     if comparison.nuisances:
         out.print("calibrated  " + calibrated_text(comparison.model, comparison.nuisances))
-    show_figures(comparison.figures, out, bool(comparison.nuisances))
+    show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console, calibrated: bool) -> None:
+def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool) -> None:
     """Key figures that are furthest off the model, one row each with the condition where it is."""
     worst = furthest(figures)
     if not worst:
         return
-    table = dense("key figures, measured against the base model" + (" as it was calibrated to this campaign" if calibrated else ""))
+    table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else ""))
     rows = worst[:LONGEST]
     signals = [f.signal.replace("[", "\n[") for f in rows]
     cells = []
@@ -157,7 +157,7 @@ def show_answer(answer: Answer) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
-    show_figures(answer.figures, out, bool(answer.diagnosis.nuisances))
+    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances))
     rejected = turned_down(answer)[:6]
     if rejected:
         out.print("\nclosest rivals")

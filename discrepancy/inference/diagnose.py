@@ -24,6 +24,7 @@ from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, CHAIN, Candidate, Model
+from fmu_src.percent import percent
 from fmu_src.progress import say
 
 # Level of what is gained in earnest: far from that of the screening, which is the test.
@@ -259,7 +260,7 @@ class Diagnostician:
         """What of the misfit (squares of residuals in units of their noise, beyond what noise makes) would go with an effect, were it linear and free."""
         beyond = self.space.base.chi2 - self.space.base.residual.size
         share = score.statistic / max(beyond, *(s.statistic for s in self.screening.scores))
-        return f"{100.0 * share:.2g} % of the misfit{'' if score.p_adjusted < BY_CHANCE else ', which chance gives, too'}"
+        return f"{percent(share)} of the misfit{'' if score.p_adjusted < BY_CHANCE else ', which chance gives, too'}"
 
     @property
     def tested(self) -> str:

@@ -36,7 +36,7 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
-    sections += comparison.figures_section(answer.figures, bool(diagnosis.nuisances))
+    sections += comparison.figures_section(answer.figures, answer.model.file, bool(diagnosis.nuisances))
     if diagnosis.base_off:
         sections.insert(0, base_off(answer))
     where = comparison.conditions(answer, runs) if runs else ""

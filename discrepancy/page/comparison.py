@@ -7,6 +7,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
@@ -25,7 +26,7 @@ def page(result: Comparison) -> Page:
     runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
     # What one asks first: numbers, then curves, then maps.
     sections = [
-        *figures_section(result.figures, bool(result.nuisances)),
+        *figures_section(result.figures, result.model.file, bool(result.nuisances)),
         Section(
             "runs",
             "Measured against predicted",
@@ -191,12 +192,12 @@ def order_figures(runs: list[Run]) -> list[Figure]:
     return [figure for figure in found if figure is not None]
 
 
-def figures_section(figures: list[KeyFigure], calibrated: bool) -> list[Section]:
-    """Key figures, measured against the base model; also of a diagnosis.  Of many those that are furthest off, all of them folded."""
+def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool) -> list[Section]:
+    """Key figures, measured against the model as it stands in ``file``; also of a diagnosis.  Of many those that are furthest off, all of them folded."""
     if not figures:
         return []
     lead = (
-        "Read alike from what was measured and from what the base model predicts there. Noise is what repetitions differ by, over the root of their"
+        f"Read alike from what was measured and from what {file.in_words} predicts there. Noise is what repetitions differ by, over the root of their"
         " number; where nothing is repeated, what the noise of the samples makes of it."
     )
     if calibrated:

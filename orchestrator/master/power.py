@@ -15,6 +15,7 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
+from fmu_src.percent import percent
 from fmu_src.units import UnitError, parse, registry
 from orchestrator.component import Component
 from orchestrator.master.connections import Link, Transfer
@@ -77,7 +78,7 @@ class PowerBond:
         if self.share <= self.threshold:
             return None
         return (
-            f"power residual {100.0 * self.share:.2g} % on {self}: the coupling itself adds or removes"
+            f"power residual {percent(self.share)} on {self}: the coupling itself adds or removes"
             f" {self.residual_energy:.3g} J of {self.exchanged_energy:.3g} J exchanged (threshold"
             f" {100.0 * self.threshold:g} %). What you see there is the coupling, not the model: take a smaller step,"
             " extrapolation = 1 or step control; if it stays, the connection itself is lossy (factor, units, sign)"

@@ -17,6 +17,8 @@ export function ensemble(root, context, hours) {
     limits = { lost_motion_arcmin: "", disc_flank_um: "" },
     plot = null,
     model = "",
+    // When that began of which the fields are.
+    begun = null,
     open = false;
   const form = h("div"),
     faults = h("div"),
@@ -43,11 +45,17 @@ export function ensemble(root, context, hours) {
 
   async function load() {
     const job = context.state?.jobs.ensemble;
-    if (!rows || model !== context.model()) {
+    const given = job?.given?.model === context.model() ? job.given : null;
+    if (!rows || model !== context.model() || (given && job.begun !== begun)) {
       model = context.model();
       const told = model ? await context.act(post("reducer", { model }), faults) : null;
       numbers = told?.reducer?.numbers.filter((n) => /\d/.test(n.value)) ?? [];
-      rows = FIRST.filter((name) => numbers.some((n) => n.name === name)).map(usual);
+      rows = given?.scatters?.map((row) => ({ ...row })) ?? FIRST.filter((name) => numbers.some((n) => n.name === name)).map(usual);
+      if (given) {
+        begun = job.begun;
+        samples = given.samples ?? samples;
+        limits = { ...limits, ...given.limits };
+      }
     }
     found = job?.state ? await get(job.state === "running" || !job.result ? "results/ensemble/live" : "results/ensemble").catch(() => null) : null;
     if (!found?.panes) found = null;

@@ -9,14 +9,18 @@ import { Plot } from "./plot.js";
 // One for each line of all panes, which share a legend.
 const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--a"];
 
+const USUAL_HOURS = "10000";
+
 // The report in the colours of the page around it: they may be others than the screen's.
 const embedded = () => `results/life/report?colours=${document.documentElement.classList.contains("dark") ? "dark" : "light"}`;
 
 export function show(root, context) {
   let live = null,
     result = null,
-    hours = "10000",
+    hours = USUAL_HOURS,
     torque = "",
+    // When that began of which the fields are.
+    begun = null,
     plot = null,
     report = null,
     // The report is large: its box is empty for seconds.
@@ -31,8 +35,19 @@ export function show(root, context) {
   root.append(top, shown, many);
   const lives = ensemble(many, context, () => hours);
 
+  // What is shown and what goes on from where it was paused are of these fields, on a page that was loaded anew and in a second tab, too;
+  // what was typed since stays.
+  function take() {
+    const job = [context.state?.jobs.life, context.state?.jobs.ensemble].find((j) => j?.begun);
+    if (!job || job.begun === begun) return;
+    begun = job.begun;
+    hours = String(job.given.hours ?? "").trim() || USUAL_HOURS;
+    torque = String(job.given.torque ?? "").trim();
+  }
+
   async function load() {
     const job = context.state?.jobs.life;
+    take();
     live = job?.state ? await get("results/life/live").catch(() => null) : null;
     if (!live?.now) live = null;
     result = job?.result && job.state === "done" ? await get("results/life").catch(() => null) : null;
@@ -173,6 +188,7 @@ export function show(root, context) {
     );
   }
 
+  take();
   draw();
   load();
   let seen = "";

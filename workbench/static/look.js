@@ -12,6 +12,9 @@ import { matcher } from "./search.js";
 
 const MOST_DRAWN = 4;
 
+// An error in times its noise: root mean square of all samples over that of the noise, as the cards and ``rvwear compare`` have it.
+const times = (ratio) => `${number(ratio, 3)}×`;
+
 export function show(root, context) {
   let result = null,
     columns = null,
@@ -145,9 +148,8 @@ export function show(root, context) {
       { class: "chips", id: "signals", role: "group", "aria-label": "signals" },
       result.signals
         .filter((s) => !text || matches(searched(s)) || s.signal === chosen)
-        .map((s) => {
-          const worst = Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));
-          return h(
+        .map((s) =>
+          h(
             "button",
             {
               type: "button",
@@ -160,14 +162,14 @@ export function show(root, context) {
                 root.querySelector("#curves")?.scrollIntoView({ block: "nearest" });
               },
             },
-            `${s.title} ${number(worst, 2)}×`,
-          );
-        }),
+            `${s.title} ${(s.errors ?? []).map((e) => (e.held_out ? "held out " : "") + times(e.ratio)).join(", ")}`,
+          ),
+        ),
     );
   };
 
   function curves() {
-    const worst = (s) => Math.max(0, ...[...s.runs, ...s.singles].map((r) => r.ratio ?? 0));
+    const worst = (s) => Math.max(0, ...(s.errors ?? []).map((e) => e.ratio ?? 0));
     chosen ??= [...result.signals].sort((p, q) => worst(q) - worst(p))[0]?.signal;
     const signal = result.signals.find((s) => s.signal === chosen) ?? result.signals[0];
     if (!signal) return note("No run can be predicted by this model.");
@@ -187,7 +189,8 @@ export function show(root, context) {
       const key = run.condition;
       cells.set(key, [...(cells.get(key) ?? []), run]);
     }
-    const ratio = (members) => Math.max(...members.map((r) => r.ratio ?? 0));
+    // Root mean square over the repetitions, as the map of errors has it.
+    const ratio = (members) => Math.hypot(...members.map((r) => r.ratio ?? 0)) / Math.sqrt(members.length);
     if (!condition || (condition !== "*" && !cells.has(condition))) condition = [...cells].sort((p, q) => ratio(q[1]) - ratio(p[1]))[0][0];
     const chips = h(
       "div",
@@ -203,7 +206,7 @@ export function show(root, context) {
               draw();
             },
           },
-          `${name} ${number(ratio(members), 2)}×${members[0].held_out ? " · held out" : ""}`,
+          `${name} ${times(ratio(members))}${members[0].held_out ? " · held out" : ""}`,
         ),
       ),
       cells.size > 1

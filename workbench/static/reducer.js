@@ -74,8 +74,8 @@ export function show(root, context) {
     const r = data.reducer;
     clear(
       body,
-      h("h1", {}, r.name),
-      h("p", { class: "lead" }, r.description),
+      h("h1", {}, r.title),
+      h("p", { class: "lead" }, r.lead),
       h(
         "p",
         { class: "quiet" },
@@ -84,11 +84,10 @@ export function show(root, context) {
           .map(([k, v]) => `${v} ${k}`)
           .join(", "),
         r.speed ? `; ${r.speed}` : "",
-        data.carries?.length ? `; the model carries ${data.carries.join(", ")}` : "",
       ),
       r.findings.map((t) => note(t, "bad")),
       h("div", { class: "grid" }, r.figures.map(figure)),
-      numbers(r.numbers),
+      numbers([...r.added, ...r.numbers]),
     );
   }
 

@@ -57,7 +57,7 @@ function slider(p, values, follow) {
     value,
     "aria-label": `${called(p)} [${unit}]`,
     "data-parameter": p.name,
-    oninput: () => set(Number(range.value)),
+    oninput: () => moved(Number(range.value)),
   });
   const field = h("input", {
     type: "number",
@@ -69,19 +69,23 @@ function slider(p, values, follow) {
         asked = Number(field.value),
         taken = Math.min(Math.max(asked, low), high);
       // What is beyond the bounds is computed at them, and so it says.
-      refused.textContent = asked === taken ? "" : ` ${plain(asked)} lies outside: ${plain(taken)} is tried`;
+      say(asked === taken ? "" : `${inUnit(field.value)} must lie in ${inUnit(`[${plain(low)}, ${plain(high)}]`)}; ${inUnit(plain(taken))} is shown`);
       field.value = plain(taken);
       range.value = taken;
       set(taken);
     },
   });
-  const refused = h("span", { class: "bad", role: "status" });
+  const refused = h("span", { class: "small bad", role: "status", style: { "grid-column": "1 / -1" } });
+  const inUnit = (text) => `${text}${p.unit ? ` ${p.unit}` : ""}`.replaceAll("-", "−");
+  const say = (text) => {
+    refused.textContent = text;
+  };
   range.addEventListener("keydown", (event) => {
     const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
     if (by) {
       event.preventDefault();
       range.value = Number(range.value) + by * step;
-      set(Number(range.value));
+      moved(Number(range.value));
     }
   });
   const set = (v) => {
@@ -90,6 +94,11 @@ function slider(p, values, follow) {
     if (document.activeElement !== field) field.value = plain(v);
     follow();
   };
+  // Where the hand goes on from there, what was refused is of before.
+  const moved = (v) => {
+    say("");
+    set(v);
+  };
   return h(
     "div",
     { class: "slider" },
@@ -97,12 +106,13 @@ function slider(p, values, follow) {
     h("span", { class: "name", title: p.description }, `${called(p)} [${unit}]${p.amplitude ? "" : " · shape"}`, p.of ? h("span", { class: "small of" }, `: ${p.of}`) : null),
     range,
     field,
+    // Below the field, above what is always there.
+    refused,
     h(
       "span",
       { class: "quiet small", style: { "grid-column": "1 / -1" } },
       `${number(p.low, 3)} to ${number(p.high, 3)}; ` +
         (p.all_round ? "all round (behind a gear a further turn is another place)" : `allowed ${number(p.bounds[0], 3)} to ${number(p.bounds[1], 3)}`),
-      refused,
     ),
   );
 }

@@ -7,6 +7,9 @@ from dataclasses import dataclass, replace
 
 from discrepancy.held_names import LOCKED_AT
 
+# Behind a number; n° and 1º count.
+DEGREES = re.compile(r"(?<=\d)[ _]?°|(?<=\d\d)[ _]?º")
+
 
 @dataclass(frozen=True)
 class State:
@@ -54,5 +57,5 @@ def numbers_of(state: State, others: Sequence[State]) -> list[str]:
 
 
 def joined(parts: Sequence[str]) -> str:
-    text = "_".join(re.sub(r"[^\w.+-]", "", part.replace("%", "pct").replace("/", "per")) for part in parts if part)
+    text = "_".join(re.sub(r"[^\w.+-]", "", DEGREES.sub("deg", part).replace("%", "pct").replace("/", "per")) for part in parts if part)
     return re.sub(r"^[\W_]+", "", text)
