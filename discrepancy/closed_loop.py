@@ -4,6 +4,8 @@ A bench that cycles the torque and writes a whole cycle from no torque on begins
 from which the cycle before had come.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fmu_src.arrays import Floats
@@ -14,19 +16,61 @@ SAME = 0.02
 BEFORE = 0.04
 # Of how far the branches stand apart at that torque: a loop from rest begins half-way between them.
 NEARER = 0.25
-# Of the range of the turning: branches that are nearer show neither play nor friction, and where they begin does not matter.
-OPEN = 0.05
+# Branches no further apart than so many deviations of the samples cannot be told; from so many on there is no doubt.
+TOLD, SURELY = 4.0, 12.0
+# Branches at the opposite torque may lie otherwise by a share of the range of the turning: those that are nearer leave a doubt.
+OTHERWISE = 0.05
 
 
 def is_closed(torques: Floats, turning: Floats) -> bool:
     """Whether the start of a loop (``torques`` [N m] in the order in which they were applied, ``turning`` of the output) lies on the branch that passes
     its torque the same way later; False where none does, as of a loop that begins at its largest torque, and where no play shows."""
-    sense = first_sense(torques)
-    same, opposite = (passing(way * (torques - torques[0]), turning) for way in (sense, -sense))
-    if same is None or opposite is None:
+    found = branches_at_start(torques, turning)
+    if found is None:
         return False
-    apart = abs(opposite - same)
-    return bool(apart > OPEN * np.ptp(turning) and abs(turning[0] - same) < NEARER * apart)
+    return bool(found.apart > TOLD * scatter(turning) and abs(turning[0] - found.same) < NEARER * found.apart)
+
+
+def uncertain(torques: Floats, turning: Floats) -> int:
+    """How many of the first samples hang on whether the loop was gone round before, where its branches lie too near to tell."""
+    found = branches_at_start(torques, turning)
+    if found is None or found.apart > (OTHERWISE * np.ptp(turning) if found.mirrored else SURELY * scatter(turning)):
+        return 0
+    return int(np.argmax(np.abs(torques - torques[0]) > BEFORE * np.ptp(torques)))
+
+
+class Branches(NamedTuple):
+    """The turning where a loop passes the torque of its start the same way later, and the other way; ``mirrored``: by those at the opposite torque."""
+
+    same: float
+    opposite: float
+    mirrored: bool
+
+    @property
+    def apart(self) -> float:
+        return abs(self.opposite - self.same)
+
+
+def branches_at_start(torques: Floats, turning: Floats) -> Branches | None:
+    """Both ways at the torque of the start; None where the loop does not pass it again.
+
+    A bench that writes nothing about no torque has not passed it again at the end, and the play may lie between: they are those at the opposite
+    torque, the other way round.
+    """
+    sense, start = first_sense(torques), torques[0]
+    same, opposite = (passing(way * (torques - start), turning) for way in (sense, -sense))
+    if same is None or opposite is None:
+        return None
+    if torques[-1] * start < 0.0:
+        there, back = (passing(way * (torques + start), turning) for way in (sense, -sense))
+        if there is not None and back is not None:
+            return Branches(opposite + there - back, opposite, True)
+    return Branches(same, opposite, False)
+
+
+def scatter(turning: Floats) -> float:
+    """Standard deviation of samples about a smooth curve, by the middle one of their second differences."""
+    return float(np.median(np.abs(np.diff(turning, 2)))) / (0.6745 * 6.0**0.5) if len(turning) > 2 else 0.0
 
 
 def first_sense(torques: Floats) -> float:

@@ -124,7 +124,8 @@ def floating_text(floating: Mapping[str, int]) -> str:
     """What of samples near no torque is said; ``floating`` holds at least one run."""
     runs = f"run {next(iter(floating))}" if len(floating) == 1 else f"{len(floating)} runs"
     count = sum(floating.values())
-    return f"{count} sample{'s' * (count > 1)} of {runs} near no torque (to {100 * FLOATING:g} % of the rated) not compared: the output floats there"
+    return (f"{count} sample{'s' * (count > 1)} of {runs} near no torque not compared: to {100 * FLOATING:g} % of the rated the"
+            " output floats, and the first samples of a loop whose ways lie close hang on whether it was gone round before")
 
 
 def calibrated_text(model: PhysicalModel, values: Mapping[str, float]) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.campaign.load import load_campaign
-from discrepancy.closed_loop import is_closed
+from discrepancy.closed_loop import is_closed, uncertain
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverTorque, loop_change, signal
@@ -52,6 +52,19 @@ def test_samples_about_no_torque_may_be_left_out():
     kept = np.abs(torque) > 1e-9
     assert torque[kept][-1] < 0.0 < torque[kept][0] and is_closed(torque[kept], turning[kept])
     assert not is_closed(torque[kept], at_rest(torque)[kept])
+
+
+@pytest.mark.parametrize("width", [0.004, 0.01])
+def test_play_between_left_out_samples_is_no_doubt(width):
+    """Branches are held against those at the opposite torque, where a line through the play would miss; where they lie close the first samples are left."""
+    torque = cycle(40)
+    kept = np.abs(torque) > 3.0
+    turning = branches(torque, width) + 0.02 * np.tanh(torque)
+    rest = turning + width * (np.arange(len(torque)) < 8)
+    assert is_closed(torque[kept], turning[kept]) and not is_closed(torque[kept], rest[kept])
+    count = uncertain(torque[kept], turning[kept])
+    assert count > 0 and np.abs(torque[kept][:count]).max() < 17.0
+    assert uncertain(torque[kept], branches(torque)[kept]) == 0 and uncertain(torque, branches(torque)) == 0
 
 
 @pytest.mark.parametrize("seed", range(5))

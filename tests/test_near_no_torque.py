@@ -28,7 +28,7 @@ def test_samples_that_are_not_compared_are_counted_and_exported_without_a_predic
     assert main(["compare", "RV20E-121", str(bench), "--json", "--export", str(tmp_path / "e.csv")]) == 0
     told = json.loads(capsys.readouterr().out)
     assert few > 1 and [(run["samples"], run["near_no_torque"]) for run in told["runs"]] == [(300 - few, few)] * 2
-    assert f"{2 * few} samples of 2 runs near no torque (to 1 % of the rated) not compared: the output floats there" in told["warnings"]
+    assert f"{2 * few} samples of 2 runs near no torque not compared: to 1 % of the rated the output floats," in " ".join(told["warnings"])
     place = tmp_path / "e_hysteresis_locked_input.csv"
     table, calibrated = pd.read_csv(place), pd.read_csv(tmp_path / "e_calibrated.csv")
     assert "model_error[hysteresis]" in set(calibrated["parameter"])

@@ -10,6 +10,7 @@ import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign
+from discrepancy.closed_loop import uncertain
 from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
@@ -379,7 +380,7 @@ def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None)
 
 
 def defined(record: Record, campaign: Campaign) -> Record:
-    """A loop without the samples near no torque, where the output floats in its clearances."""
+    """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it."""
     kept = defined_at(record, campaign)
     if kept.all():
         return record
@@ -387,12 +388,14 @@ def defined(record: Record, campaign: Campaign) -> Record:
 
 
 def defined_at(record: Record, campaign: Campaign) -> Mask:
-    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque."""
+    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque, and not the first ones where
+    nobody can tell how it was begun."""
     if record.quantity != "hysteresis" or "torque" not in record.axes:
         return np.ones(len(record.values), bool)
     torque = np.asarray(record.axes["torque"], float)
     rated = campaign.rated_torque or float(np.abs(torque).max())
     kept: Mask = np.abs(torque) > FLOATING * rated
+    kept[: uncertain(torque, record.values)] = False
     return kept
 
 
