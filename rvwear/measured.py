@@ -122,7 +122,7 @@ def compare(model: ModelFile | str | Path, campaign: Campaign | str | Path, *, j
     >>> import rvwear
     >>> found = rvwear.compare("RV20E-121-rigid", "examples/hidden_effect/campaign")
     >>> found
-    <Comparison of 26 runs: hysteresis[locked=input] errs by 2.19 times its noise>
+    <Comparison of 26 runs: hysteresis[locked=input] errs by 2.24 times its noise>
     >>> list(found.key_figures.columns[:5])
     ['signal', 'condition', 'figure', 'measured', 'model']
     """
