@@ -218,8 +218,9 @@ class Placing(Protocol):
         """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
         ...
 
-    def waves_on(self, values: Mapping[str, float]) -> Sequence[dict[str, float]]:
-        """Other places that look alike without the effects in ``values``, and may not with them: by name, each to be tried at once."""
+    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[Sequence[dict[str, float]], Sequence[int], Sequence[int]]:
+        """Other places that look alike without the effects in ``values``, and may not with them: by name, each to be tried at once, with those of the
+        ``directions`` of the effects that stand elsewhere there; then the records by which effects are found there, and all that tell."""
         ...
 
 

@@ -15,7 +15,7 @@ from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
-from discrepancy.prediction.angle_zeros import SURELY, angle_zeros, best_zeros
+from discrepancy.prediction.angle_zeros import angle_zeros, best_zeros
 from discrepancy.prediction.apart import apart
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
@@ -35,7 +35,6 @@ from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expand
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
-from discrepancy.prediction.whitening import gain
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
 from fmu_src.arrays import Floats, Mask
 from fmu_src.faults import RunFault
@@ -167,29 +166,21 @@ class PhysicalModel:
         every = self.standing() | dict(values)
         return self.unstated_places.half_a_turn_on(self.cages.effects(every), every, partial(self.loop_at, every))
 
-    def waves_on(self, values: Mapping[str, float]) -> list[dict[str, float]]:
-        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places, of which transmission errors say that they are better."""
+    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int], list[int]]:
+        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; transmission errors tell, of each load one is enough.
+
+        What is fixed to the discs has turned with them by their share of a turn there, what is fixed to ring or carrier has not.
+        """
         every, found = self.standing() | dict(values), []
         for name, zero in self.zeros.items():
-            # By load one: others repeat it.
-            few = {r.factors.get("load"): r for r in self.cages.records if r.quantity == ERROR and angle_zero(r) == name and not r.held_out}
-            here = [self.left_anew(record, every) for record in few.values()]
             for k in range(1, self.discs):
                 further = every[name] + k * self.wave
-                there = further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave
-                left = [self.left_anew(record, every | {name: there}) for record in few.values()]
-                if sum(gain(a, b) for a, b in zip(here, left)) > SURELY:
-                    found.append({name: there})
-        return found
-
-    def left_anew(self, record: Record, values: Mapping[str, float]) -> Floats:
-        """What is left of a transmission error [rad], its cages placed anew."""
-        asked = self.asked(values)
-        own = self.own(record, asked)
-        found = self.observed(record, own, None, False) + self.cages.found(record, own)
-        left = record.values - self.chained(found, record, asked)
-        centred: Floats = left - left.mean()
-        return centred
+                there = {name: further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave}
+                turned = {direction: every[direction] + 2.0 * np.pi * k / self.discs for direction in directions}
+                found += [there, there | turned] if turned else [there]
+        errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and not r.held_out and angle_zero(r) in self.zeros]
+        few = {(angle_zero(self.records[i]), self.records[i].factors.get("load")): i for i in errors}
+        return found, sorted(few.values()), errors
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""

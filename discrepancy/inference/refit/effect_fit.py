@@ -170,6 +170,16 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
     return min(fit, there(space, polished), key=lambda f: f.chi2), covariance
 
 
+def from_there(space: Workspace, fit: Fit, values: Mapping[str, float]) -> Fit:
+    """The fit of the records of ``space`` from other values, all parameters together."""
+    return _jointly(space, fit.parameters, values, fit.candidates)
+
+
+def left_by(space: Workspace, fit: Fit) -> float:
+    """Chi-square of the records of ``space`` with the values of a fit."""
+    return _cost(space, Box(fit.parameters), fit.values)[0]
+
+
 def there(space: Workspace, fit: Fit) -> Fit:
     """The fit where it stands, with predictions of its own values."""
     return fit_of(fit.parameters, fit.values, space.residual(fit.values), fit.jacobian, fit.candidates, fit.converged)

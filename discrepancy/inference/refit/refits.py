@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.effect_fit import in_earnest, there
+from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, in_earnest, left_by, there
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Placing
@@ -85,15 +85,16 @@ class Refits:
         key = frozenset(c.name for c in result.candidates)
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
+        roughly, result = result.fit.chi2, self.at_its_zero(result)
+        # Tried zeros have placed what goes with them.
+        self.settled.pop(key, None)
         self.settle(key, result)
-        roughly = self.settled[key][1]
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
         for _ in range(AGAIN):
             if not (self.space.predictions.unsettled(better.fit.values) or self.has_moved(key, better)):
                 break
             self.settle(key, better)
             better = finished(self.space, result.candidates, *in_earnest(self.space, better.fit, result.candidates))
-        better = self.a_wave_on(better)
         for _ in range(AGAIN):
             other = self.otherwise(better)
             if other.fit.chi2 > better.fit.chi2 - BETTER:
@@ -103,17 +104,20 @@ class Refits:
         self.fitted[key] = self.final_fits[key] = better
         return better
 
-    def a_wave_on(self, result: Refit) -> Refit:
-        """The refit with zeros of angles that looked alike without its effects, if one is surely better where it stands."""
-        model = self.space.model
-        for places in model.waves_on(result.fit.values) if isinstance(model, Placing) else ():
-            start = replace(result.fit, values={**result.fit.values, **places})
-            self.space.predictions.settle(start.values)
-            if there(self.space, start).chi2 < result.fit.chi2 - SURELY:
-                result = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
-            else:
-                self.space.predictions.settle(result.fit.values)
-        return result
+    def at_its_zero(self, result: Refit) -> Refit:
+        """The refit where it would begin with zeros of angles that looked alike without its effects, if these are large and it is surely better there."""
+        model, predictions = self.space.model, self.space.predictions
+        if not isinstance(model, Placing) or result.fit.chi2 > EXPLAINS * self.space.base.chi2:
+            return result
+        places, some, telling = model.waves_on(result.fit.values, [p.name for c in result.candidates for p in c.shapes if p.is_direction])
+        few, every, left = self.space.only(some), self.space.only(telling), []
+        # A wrong zero has bent the effects: each is tried with those that suit it.
+        begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in ({}, *places)]
+        for fit in begun:
+            predictions.settle(fit.values)
+            left.append(left_by(every, fit))
+        best = int(np.argmin(left))
+        return result if left[best] > left[0] - SURELY else replace(result, fit=begun[best])
 
     def otherwise(self, result: Refit) -> Refit:
         """The refit with what the model has placed at the other place that looks alike, if something may be left of the misfit."""
