@@ -76,7 +76,7 @@ def run_from(options: argparse.Namespace) -> int:
     with task("reading the files"):
         proposal = propose(files, wishes_of(options, options.reducer), name_of(folder))
     if not options.reducer and (reducer := proposal.named or asked(options)):
-        proposal = propose(files, wishes_of(options, reducer), name_of(folder))
+        proposal = proposal.of(reducer)
     with task("checking what was read"):
         campaign = checked(proposal) if proposal.reducer else None
         findings = [found for search in (copied, samples) for found in search(Design(campaign))] + angle_doubts(campaign) if campaign else []

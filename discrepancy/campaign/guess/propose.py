@@ -49,6 +49,10 @@ class PlacedRun:
     where: dict[str, int]
 
 
+# How the remedy of a reducer that nobody said begins.
+ASKS_REDUCER = "--reducer"
+
+
 @dataclass(frozen=True)
 class Proposal:
     """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be
@@ -68,6 +72,11 @@ class Proposal:
     unplaced: tuple[Doubt, ...]
     angle_of: Guess[str] | None
     named: str | None
+
+    def of(self, reducer: str) -> "Proposal":
+        """The same of a reducer that is known by now, for which no file has to be read again; InputFault where there is none of that name."""
+        load_reducer(reducer)
+        return replace(self, reducer=reducer, needs=tuple(need for need in self.needs if not need.remedy.startswith(ASKS_REDUCER)))
 
     def as_json(self) -> dict[str, Any]:
         return {
@@ -297,5 +306,5 @@ def needs_of(runs: Sequence[tuple[str, GuessedRun]], conditions: dict[str, dict[
     found = lacking(runs, conditions)
     if not wishes.reducer:
         text = "which reducer it is has to be said" + (f"; lines above the tables say {named}" if named else "")
-        found.append(Doubt("campaign", text, f"--reducer {named or OPEN} (rvwear reducer list shows all), or a reducer file"))
+        found.append(Doubt("campaign", text, f"{ASKS_REDUCER} {named or OPEN} (rvwear reducer list shows all), or a reducer file"))
     return tuple(found)
