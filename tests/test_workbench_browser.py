@@ -437,8 +437,10 @@ def test_charts_that_were_not_scrolled_to_are_printed(bench):
       const { sections } = await import('./static/page.js'), { script } = await import('./static/net.js'), view = document.getElementById('view');
       const figure = (name) => ({ name, title: name, caption: '', data: [{ type: 'bar', x: ['a'], y: [1] }], layout: {}, height: 300, labels: [], keys: [] });
       const section = (name) => ({ title: name, lead: '', figures: [figure(name)], tables: [] });
-      view.replaceChildren(...sections([section('open'), section('closed')], 1));
-      view.style.paddingTop = '9000px';
+      const apart = document.createElement('div');
+      apart.append(...sections([section('open'), section('closed')], 1));
+      view.after(apart);
+      apart.style.paddingTop = '9000px';
       await script('plotly.js');
       await script('narrow.js');
     }""")
