@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from orchestrator.settings import parse_setting
 from reducers.reducer import Reducer
 from studies.hysteresis import Hysteresis, hysteresis
+from studies.secants import size_for
 
 GAP = "disc.equidistant_modification"
 # As near as a catalogue's figure is to be met, as a share of it, and steps until then: lost motion grows evenly with the gap.
@@ -31,16 +32,9 @@ def tested(reducer: Reducer, gap: float, lost_motion: float) -> Tested:
     least = without.lost_motion_arcmin
     if least > lost_motion:
         return Tested(*found, None, least)
-    here, there = (0.0, least), (gap, found[0]) if gap > 0.0 else (FIRST, test(reducer, FIRST).lost_motion_arcmin)
-    for _ in range(MOST_STEPS):
-        if abs(there[1] - lost_motion) <= NEAR * lost_motion:
-            return Tested(*found, there[0], least)
-        slope = (there[1] - here[1]) / (there[0] - here[0])
-        if slope <= 0.0:
-            break
-        wanted = max(float(f"{there[0] + (lost_motion - there[1]) / slope:.3g}"), 0.0)
-        here, there = there, (wanted, test(reducer, wanted).lost_motion_arcmin)
-    return Tested(*found, None, least)
+    wider = (gap, found[0]) if gap > 0.0 else (FIRST, test(reducer, FIRST).lost_motion_arcmin)
+    met = size_for(lost_motion, lambda size: test(reducer, size).lost_motion_arcmin, (0.0, least), wider, NEAR, MOST_STEPS)
+    return Tested(*found, met.size if met.near else None, least)
 
 
 def test(reducer: Reducer, gap: float) -> Hysteresis:

@@ -11,10 +11,11 @@ from reducers.completion.file import reducer_at
 from reducers.completion.given import Given
 from reducers.reducer import Reducer
 from studies.hysteresis import hysteresis
+from studies.secants import size_for
 
 # As catalogues round.
 NEAR = 1e-3
-# The turning is nearly a straight line over the compliance: three steps come as near.
+# Three come as near.
 MOST_STEPS = 12
 # Softer ones are none (assumed: a tenth of the softest in catalogues) [N m/arcmin].
 LEAST = 0.1
@@ -37,24 +38,20 @@ def as_stiff_as(given: Given, stiffness: float) -> Completion:
 
 
 def compliance_of(reducer: Reducer, usual: float, stiffness: float) -> float:
-    """Of the crank supports [m/N], by secants from rigid ones and the ``usual`` ones on."""
-    here, turned = 0.0, 1.0 / measured(reducer, 0.0)
+    """Of the crank supports [m/N], by secants from rigid ones and the ``usual`` ones on: the turning is nearly straight over it."""
+    turned = turning(reducer, 0.0)
     if turned >= 1.0 / stiffness:
         raise InputFault(
             f"--stiffness {stiffness:g} N.m/arcmin: with rigid crank supports the other numbers make it {1.0 / turned:.4g} N.m/arcmin, which is softer; look at"
             " the unit, or give what makes them stiffer: --diameter, --known mesh.width=..., carrier.compliance=..., first_stage.compliance=..."
         )
-    there = usual
-    for _ in range(MOST_STEPS):
-        reached = measured(reducer, there)
-        if abs(reached - stiffness) <= NEAR * stiffness:
-            return float(f"{there:.4g}")
-        slope = (1.0 / reached - turned) / (there - here)
-        here, turned = there, 1.0 / reached
-        there = here + (1.0 / stiffness - turned) / slope
-    raise InputFault(f"--stiffness {stiffness:g} N.m/arcmin: no {FREE} makes it, {reached:.4g} N.m/arcmin is the nearest; look at its unit")
+    met = size_for(1.0 / stiffness, lambda size: turning(reducer, size), (0.0, turned), (usual, turning(reducer, usual)), NEAR, MOST_STEPS)
+    if not met.near:
+        raise InputFault(f"--stiffness {stiffness:g} N.m/arcmin: no {FREE} makes it, {1.0 / met.figure:.4g} N.m/arcmin is the nearest; look at its unit")
+    return met.size
 
 
-def measured(reducer: Reducer, compliance: float) -> float:
+def turning(reducer: Reducer, compliance: float) -> float:
+    """Per torque [arcmin/(N m)]."""
     setting = parse_setting(f"{FREE}={compliance!r}", [reducer.plant, reducer.wear])
-    return hysteresis(reducer, [setting]).stiffness_Nm_per_arcmin
+    return 1.0 / hysteresis(reducer, [setting]).stiffness_Nm_per_arcmin
