@@ -1,13 +1,14 @@
 """What the place of the roller cages changes in curves of the bench: in a transmission error, and in a loop at one locked place."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.conditions import Values
+from discrepancy.prediction.conditions import Values, identity
 from discrepancy.prediction.curves import OverAngle, OverTorque, nodes_of, signal
 from discrepancy.prediction.support import angle_nodes
 from discrepancy.problem import Record
@@ -24,7 +25,7 @@ AnyCurve = TypeVar("AnyCurve", OverAngle, OverTorque)
 def errors_of_cages(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
     """Transmission error [rad] of the record's samples for several places of the cages [rad], finely enough to see where they are."""
     curves = [OverAngle(bench, record, "transmission_error", cage) for cage in cages]
-    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, always=True)
+    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, math.inf)
     assert nodes is not None
     return [nodes.samples(curve.run(values, nodes), curve.places(values)) for curve in curves]
 
@@ -33,18 +34,39 @@ def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[f
     """What cages that stand each of ``cages`` [rad] ahead change in the transmission error [rad]: unless ``exactly``, to first order where nobody
     could see what that misses."""
     plain = OverAngle(bench, record, "transmission_error")
-    if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0:
+    if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0 and not is_seen(plain):
         found: list[Floats] = []
         angles, samples = plain.support(nodes_of(plain, values), values)
-        there = bench.error_beside(plain.condition, values, angles, values, angles)
-        for cage in cages:
-            change = bench.error_beside(plain.condition, values, angles, values, angles, cage) - there
-            if OF_RIPPLE * float(np.std(change)) > HARDLY_SEEN * bench.allowed(record):
+        for change in to_first_order(plain, values, angles, cages):
+            if misses(plain, change):
                 break
             found.append(samples(change))
         else:
             return found
     return ripples(plain, values, cages)
+
+
+def is_seen(curve: OverAngle) -> bool:
+    """Whether one could see what the base model's ripple misses to first order: that of effects is then not asked, it would be seen as well."""
+
+    def seen() -> bool:
+        angles, _ = curve.support(nodes_of(curve, {}), {})
+        quarter = 0.5 * math.pi / curve.bench.reducer.topology.rollers
+        return any(misses(curve, change) for change in to_first_order(curve, {}, angles, [quarter]))
+
+    return curve.bench.kept(("ripple is seen", *identity(curve.record)), seen)
+
+
+def to_first_order(curve: OverAngle, values: Values, angles: Floats, cages: Sequence[float]) -> Iterator[Floats]:
+    """What cages each of ``cages`` [rad] ahead change at ``angles`` [rad]."""
+    there = curve.bench.error_beside(curve.condition, values, angles, values, angles)
+    for cage in cages:
+        yield curve.bench.error_beside(curve.condition, values, angles, values, angles, cage) - there
+
+
+def misses(curve: OverAngle, change: Floats) -> bool:
+    """Whether one could see what a ripple misses that is this ``change`` to first order."""
+    return OF_RIPPLE * float(np.std(change)) > HARDLY_SEEN * curve.bench.allowed(curve.record)
 
 
 def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
