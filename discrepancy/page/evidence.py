@@ -78,7 +78,7 @@ def base_off(answer: Answer) -> Section:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
         told = told_name(e.name, tables_of(answer.model))
-        numbers = (value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within))
+        numbers = (value, interval, held.text(e.assumed, 3), held.span(*e.within))
         rows.append([told, *map(with_minus, numbers), unit, e.title])
     table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
     lead = (
