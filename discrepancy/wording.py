@@ -58,7 +58,8 @@ def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
     if effect.get("share_alone") is None:
         return share_text(answer, effect["share_explained"])
     others = "the others" if len(answer.effects) > 1 else "what of the base model is off"
-    return f"explains {percent(answer, effect['share_alone'])} of the misfit alone, adds {percent(answer, effect['share_explained'])} of it beside {others}"
+    alone, more = percent(answer, effect["share_alone"]), percent(answer, effect["share_explained"])
+    return f"alone it takes away {alone} of the misfit; added to {others}, {more} more of it"
 
 
 def together_text(answer: Answer) -> str:
