@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 USUAL_REDUCER = "RV20E-121"
 # On rigid supports, without losses: what an effect does shows by itself.
 IDEAL_REDUCER = "RV20E-121-rigid"
-# Exit code of an extension that unused runs did not bear out: no failure of the program.
-DID_NOT_HELP_CODE = 3
+# Exit code of an extension that unused runs did not bear out, or that the diagnosis calls for none of: no failure of the program, and no bad input.
+NOTHING_ADDED_CODE = 3
 REDUCER_HELP = f"{', '.join(available())}, or a reducer file (default {USUAL_REDUCER})"
 
 # Options that are shorthands of settings: option -> (variable, unit).

@@ -132,7 +132,10 @@ def numbers_table() -> str:
 
 def commands_page() -> str:
     """All commands with their options, as ``--help`` has them."""
-    codes = "0 done, 1 a run that failed or a campaign that lacks something, 2 bad input, 3 `extend`: the effect did not help, 130 interrupted, 143 terminated"
+    codes = (
+        "0 done, 1 a run that failed or a campaign that lacks something, 2 bad input, 3 `extend`: nothing was added, for the effect did not help or the"
+        " diagnosis names none that may be added by itself, 130 interrupted, 143 terminated"
+    )
     lines = [MADE + "# Commands\n", f"Every command takes `--help` and `--quiet`. Exit codes: {codes}."]
     for name, text, command in commands(parser()):
         lines.append(f"\n## {NAME} {name}\n\n{text}\n\n| option | meaning |\n|---|---|")

@@ -28,8 +28,8 @@ def styled(*parts: str | tuple[str, str]) -> Text:
     return Text.assemble(*parts)
 
 
-# Columns of the line that a dense table takes beside those of each of its columns, edges included.
-BETWEEN = 2
+# Columns of the line that a table takes beside those of each of its columns: a dense one, edges included, and one with lines, which takes EDGE more.
+BETWEEN, BETWEEN_LINES, EDGE = 2, 3, 1
 
 
 def dense(title: str) -> Table:

@@ -172,7 +172,7 @@ def outlier_text(found: Outlying, runs: list[dict[str, Any]]) -> str:
     own = [r["error"] for r in alike if r["run"] == found.run]
     rest = [r["error"] for r in alike if r["run"] != found.run]
     errors = [shown(v, found.unit, found.signal) for v in (*own, min(rest), max(rest))] if own and rest else []
-    return words(found) + (f"; the model errs there by {errors[0]}, in the others by {errors[1]} to {errors[2]}" if errors else "")
+    return words(found) + (f"; the model errs there by {errors[0]}, in the others by {' to '.join(dict.fromkeys(errors[1:]))}" if errors else "")
 
 
 def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:

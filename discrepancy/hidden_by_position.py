@@ -56,4 +56,4 @@ def told(doctor: Diagnostician, holding: Refit, candidate: Candidate, column: Fl
     value, half = float(column @ holding.fit.settled) / beside, float(ndtri(0.975)) * doctor.inflation(holding) / beside**0.5
     low, high = (float(np.clip(p.off + p.scale * end, p.lower, p.upper)) for end in (value - half, value + half))
     scale = of_parameter(max(abs(low), abs(high)), p.unit)
-    return beside / alone, f"{told_name(p.name, tables)} of {scale.text(low, 2)} to {scale.text(high, 2)}"
+    return beside / alone, f"{told_name(p.name, tables)} of {scale.span(low, high, 2)}"

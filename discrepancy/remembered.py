@@ -9,6 +9,7 @@ import hashlib
 import os
 import pickle
 import tomllib
+from datetime import datetime
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
@@ -23,7 +24,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.verdict import Answer, AnswerSoFar, diagnose
 from fmu_src import checked_file
 from fmu_src.cache_folder import cache_folder
-from fmu_src.progress import task
+from fmu_src.progress import duration, say, task
 from fmu_src.source_hash import ROOT
 
 if TYPE_CHECKING:
@@ -39,9 +40,11 @@ PARTS = ("discrepancy", "studies", "rv_plant", "wear_fmu", "reducers", "fmu_src"
 
 
 def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Answer:
-    """The diagnosis, from before if there was one."""
+    """The diagnosis, from before if there was one, which is told."""
     answer = remembered(file, campaign, settings, jobs)
-    if answer is None:
+    if answer is not None:
+        say(found_again(answer))
+    else:
         place = place_of(file, campaign, settings)
         begun = place.with_suffix(".begun")
         doctor = interrupted(file, campaign, settings, jobs)
@@ -55,6 +58,13 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
         write(place, answer)
         begun.unlink(missing_ok=True)
     return answer
+
+
+def found_again(answer: Answer) -> str:
+    """That nothing was computed, or an answer at once would be taken for one of this moment."""
+    made, spent = datetime.fromtimestamp(answer.made), duration(answer.diagnosis.seconds)
+    when = f"{made.day} {made:%b %Y, %H:%M}"
+    return f"found again: the diagnosis of this model and these measurements, made {when} in {spent} of computing; none of it is computed anew"
 
 
 def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False, jobs: int = 1) -> "Extension":

@@ -8,6 +8,7 @@ from typing import Any
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.intervals import digits_of, estimate_text
 from discrepancy.problem import is_direction
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable
@@ -42,6 +43,11 @@ class Scale:
 
     def text(self, value: float, digits: int = 3) -> str:
         return f"{readable(self.number(value), digits)} {'' if self.unit == '1' else self.unit}".rstrip()
+
+    def span(self, low: float, high: float, digits: int = 3) -> str:
+        """``1.2 um to 3.4 um``, with more digits than these where the ends would look alike."""
+        digits = digits_of(self.number(low), self.number(high), digits, readable)
+        return f"{self.text(low, digits)} to {self.text(high, digits)}"
 
 
 def of_signal(signal: str, unit: str) -> Scale:
@@ -112,8 +118,8 @@ def shown(value: float, unit: str, signal: str = "") -> str:
 def parameter_texts(value: float, interval: tuple[float, float], unit: str, direction: bool = False) -> tuple[str, str, str]:
     """(value, interval, unit) of an estimate, all in one unit."""
     scale = of_parameter(largest(value, *interval), unit, direction)
-    low, high = (readable(scale.number(v), 4) for v in interval)
-    return readable(scale.number(value), 4), f"{low} to {high}", "" if scale.unit == "1" else scale.unit
+    low, high = (scale.number(v) for v in interval)
+    return *estimate_text(scale.number(value), (low, high), 4, readable), "" if scale.unit == "1" else scale.unit
 
 
 def of_variable(variable: Variable, size: float) -> Scale:

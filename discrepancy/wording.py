@@ -9,6 +9,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.intervals import interval_text
 from discrepancy.other_places import place_of
 from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
@@ -57,7 +58,8 @@ def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
     if effect.get("share_alone") is None:
         return share_text(answer, effect["share_explained"])
     others = "the others" if len(answer.effects) > 1 else "what of the base model is off"
-    return f"explains {percent(answer, effect['share_alone'])} of the misfit alone, adds {percent(answer, effect['share_explained'])} of it beside {others}"
+    alone, more = percent(answer, effect["share_alone"]), percent(answer, effect["share_explained"])
+    return f"alone it takes away {alone} of the misfit; added to {others}, {more} more of it"
 
 
 def together_text(answer: Answer) -> str:
@@ -100,11 +102,10 @@ def base_texts(answer: Answer) -> list[str]:
     for e in answer.diagnosis.base_off:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
-        low, high, assumed = (held.text(v, 3) for v in (*e.within, e.assumed))
         share = f", {100.0 * (e.value / e.assumed - 1.0):+.1f} %" if e.assumed else ""
-        range_text = f"{low} to {high}" if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
+        range_text = held.span(*e.within) if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
         name = told_name(e.name, tables_of(answer.model))
-        texts.append(f"{name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {assumed} ({range_text}); {e.title}")
+        texts.append(f"{name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {held.text(e.assumed)} ({range_text}); {e.title}")
     return texts
 
 
@@ -144,8 +145,8 @@ def with_base_text(entry: Mapping[str, Any]) -> str:
     if "interval_with_base" not in entry:
         return ""
     scale = of_estimate(entry)
-    low, high = (readable(scale.number(v), 3) for v in entry["interval_with_base"])
-    return f"with the base model's numbers as its file has them; {low} to {high} with each free within its range"
+    low, high = (scale.number(v) for v in entry["interval_with_base"])
+    return f"with the base model's numbers as its file has them; {interval_text(low, high, 3, readable)} with each free within its range"
 
 
 def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:

@@ -1,6 +1,7 @@
 """A refusal of ``rvwear extend`` ends with the command line that works."""
 
 import argparse
+import json
 import shlex
 from dataclasses import replace
 from types import SimpleNamespace
@@ -17,6 +18,7 @@ from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, 
 from discrepancy.model_file import load_model
 from discrepancy.problem import Candidate
 from fmu_src.faults import InputFault
+from tests.test_discrepancy_page import diagnosed, model_of
 
 
 def options(*arguments: str) -> argparse.Namespace:
@@ -220,3 +222,19 @@ def test_of_what_cannot_be_told_apart_and_leaves_something_the_likeliest_is_adde
     line, _, why = commands.line_after(given, answer).partition("    # ")
     again = parser().parse_args(shlex.split(line)[1:])
     assert again.effect == ["hole_position_errors.carrier"] and why == "adds the likeliest of these, and judges it on runs that were not used"
+
+
+@pytest.mark.parametrize("more", [[], ["--draft", "mine"]])
+def test_a_diagnosis_that_names_nothing_to_add_is_no_bad_input(monkeypatch, capsys, tmp_path, more):
+    """It ended with 2, that of bad input; 3 says that nothing was added, and JSON has what the diagnosis found."""
+    found = diagnosed(model_of())
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model(given.model), None))
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *given, **more: found)
+    assert found.verdict == NONE and main(["extend", "RV20E-121", "c", *more]) == 3
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("rvwear extend: ") and f"the diagnosis says {NONE!r}" in err
+    assert main(["extend", "RV20E-121", "c", "--json", *more]) == 3
+    again = capsys.readouterr()
+    told = json.loads(again.out)
+    assert told["verdict"] == NONE and again.err.strip() == f"rvwear extend: {told['nothing_added']}" and f"says {NONE!r}" in told["nothing_added"]

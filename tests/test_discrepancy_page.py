@@ -19,6 +19,7 @@ from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
+from discrepancy.intervals import UNDETERMINED
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
@@ -371,7 +372,7 @@ def test_ladder_picture_is_a_plain_svg(tmp_path):
 def test_amounts_are_in_the_units_of_a_bench():
     assert amounts.text(5 * ARCSEC, "rad") == "5.00 arcsec" and amounts.text(2e-6, "m") == "2.00 µm" and amounts.text(None, "m") == "–"
     assert amounts.estimate({"value": 3.1e9, "interval": [2e9, 4e9], "unit": "Pa"}) == ("3.10", "2.00 to 4.00", "GPa")
-    assert amounts.estimate({"value": 2.0, "interval": [2.0, 2.0], "unit": "s/m"})[1] == amounts.UNDETERMINED
+    assert amounts.estimate({"value": 2.0, "interval": [2.0, 2.0], "unit": "s/m"})[1] == UNDETERMINED
     assert amounts.estimate({"value": 1.0, "interval": [0.5, 1.5], "unit": "no such unit"})[2] == "no such unit"
     assert amounts.signal_title("wear_depth[disc=1,surface=inner_race]") == "wear depth (disc 1, surface inner race)"
 
@@ -433,10 +434,10 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     found = replace(found, diagnosis=left)
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
-    assert "runout explains 93 % of the misfit alone, adds less than 1 % of it beside the others" in told
+    assert "runout alone it takes away 93 % of the misfit; added to the others, less than 1 % more of it" in told
     assert told.count("error on unused conditions") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)
     bars = figure(page, "shares")["data"]
-    assert [t["name"] for t in bars] == ["alone", "beside the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "less than 1 %"
+    assert [t["name"] for t in bars] == ["alone", "added to the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "less than 1 %"
     assert len(figure(page, "held_out")["data"][0]["y"]) == 1 and "8009" not in page

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cli.progress import new_screen
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import compare
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
@@ -214,7 +215,7 @@ def test_compare_doubts_a_scale_that_no_reducer_has(file):
     assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1
 
 
-def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch):
+def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch, capsys):
     from discrepancy import remembered
 
     monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
@@ -226,8 +227,13 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
         raise AssertionError("computed anew")
 
     monkeypatch.setattr(remembered, "diagnose", again)
-    second = remembered.diagnosed(file, wide)
+    screen = new_screen(["diagnose"])
+    with told_to(screen):
+        second = remembered.diagnosed(file, wide)
     assert second.as_json() == first.as_json()
+    # An answer at once is no new one, and that is said.
+    (said,) = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")]
+    assert said.startswith("found again: the diagnosis of this model and these measurements, made ") and said.endswith(" of computing; none of it is computed anew")
     # What was found is added without a search, and is the same to the last digit.
     name = first.effects[0]["name"]
     fits = second.doctor.space.predictions.calls

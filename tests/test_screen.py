@@ -113,7 +113,7 @@ def test_what_leaves_something_does_not_explain_all():
     assert share_text(answer, 1.0) == "explains over 99.99 % of the misfit" and share_text(answer, 0.6) == "explains 60 % of the misfit"
     assert share_text(answer, 0.99984) == "explains 99.98 % of the misfit"
     alone = answer.effects[0] | {"share_alone": 0.99984, "share_explained": 0.3}
-    assert shares_text(answer, alone).startswith("explains 99.98 % of the misfit alone, adds 30 % of it beside")
+    assert shares_text(answer, alone) == "alone it takes away 99.98 % of the misfit; added to what of the base model is off, 30 % more of it"
     assert left_text(answer) == f"{SIGNAL}, value, changing with hours"
     assert share_text(answer_of(ONE, True), 1.0) == "explains 100 % of the misfit"
 

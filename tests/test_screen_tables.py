@@ -1,15 +1,27 @@
 """Tables on the screen: numbers are never cut, whatever stands beside them; above them of which model they are."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
+import pandas as pd
+import pytest
 import xarray as xr
+from bench_files import ARCMIN, TORQUE, TWIST
 
+from cli.columns import in_lines, widest
 from cli.screen import WIDTH, console
+from cli.show import guesses
+from cli.show.bench import show_bench
 from cli.show.comparison import show_figures
 from cli.show.life import LIFE_COLUMNS, life_table
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import load_model
 from discrepancy.page.comparison import figures_section
+from studies.standard.evaluation import Figure
+
+LOCKED = "入力軸固定0deg"
 
 
 def test_a_lifes_numbers_are_whole_however_much_has_worn(capsys, monkeypatch):
@@ -40,3 +52,39 @@ def test_key_figures_say_that_they_are_of_the_model_with_its_effects(capsys):
         show_figures(figures, console(WIDTH), file, True)
         assert f"key figures, measured against {words} as it was calibrated to this campaign" in " ".join(capsys.readouterr().out.split())
         assert f"what {words} predicts there" in figures_section(figures, file, True)[0].lead
+
+
+def test_key_figures_have_conditions_whole(capsys):
+    """`入力軸固定0deg` was shown as `入力軸固定0de` and, below it, `g`."""
+    names = ["width of the loop at no torque", "torsional stiffness, forward, loading", "torsional stiffness, backward, unloading"]
+    off = [KeyFigure("hysteresis[locked=input]", LOCKED, name, "rad", 2e-4, 1e-4, 1e-6, 2, True) for name in names]
+    long = KeyFigure("transmission_error", "RV20E_50N.m_15rpm_38degC_forward", "order 40", "rad", 2e-5, 1e-5, 1e-6, 2, True)
+    for figures, shown in ((off[:1], [LOCKED]), (off, [LOCKED]), ([*off, long], [LOCKED, "RV20E_50N.m_15rpm_", "38degC_forward"])):
+        show_figures(figures, console(WIDTH), load_model("RV20E-121"), True)
+        told = capsys.readouterr().out
+        assert all(f" {name} " in told for name in shown) and widest(told.splitlines()) <= WIDTH
+
+
+def test_names_of_conditions_end_lines_where_words_of_them_do(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "64")
+    conditions = {name: [Figure("hysteresis loss", 1.0, "arcmin", "what it is", (0.5, 1.5))] for name in (LOCKED, "warm_without_load_backward")}
+    show_bench("RV20E-121", SimpleNamespace(name="s", title="t", text="x"), conditions, 167.0, 121.0, 2, None, False)
+    told = capsys.readouterr().out
+    assert f" {LOCKED} " in told and " warm_without_ " in told and " load_backward " in told and "hysteresis loss" in told
+
+
+def test_runs_of_a_proposal_break_names_where_their_words_end(capsys, tmp_path):
+    for k in (1, 2):
+        name = f"RV20E-121_serial_00417_bench_three_hysteresis_{LOCKED}_run{k}_with_the_new_encoder_on_the_output.csv"
+        pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN}).to_csv(tmp_path / name, index=False)
+    guesses.show(propose([tmp_path], Wishes("RV20E-121")))
+    told = capsys.readouterr().out
+    assert "│ RV20E-121_serial_00417_ " in told and f" three_{LOCKED}_with_ " in told and told.count(" the_new_encoder_on_the_output │") == 2
+
+
+@pytest.mark.parametrize(("name", "width", "lines"), [
+    (LOCKED, 13, ["入力軸固", "定0deg"]), (LOCKED, 14, [LOCKED]), ("RV20E_50N.m_15rpm_38degC", 20, ["RV20E_50N.m_", "15rpm_38degC"]),
+    ("abcdefghijk", 10, ["abcdef", "ghijk"]), ("warm and dry", 9, ["warm", "and dry"]), ("温度条件高速", 11, ["温度条", "件高速"]), ("", 5, [""]),
+])  # fmt: skip
+def test_where_a_name_is_broken(name, width, lines):
+    assert in_lines(name, width).split("\n") == lines

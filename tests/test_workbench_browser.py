@@ -18,6 +18,7 @@ import pytest
 
 from fmu_src.faults import InputFault
 from workbench.folder import opened
+from workbench.steps import PAGE_OF_FOUND
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = ROOT / "examples" / "hidden_effect" / "campaign"
@@ -563,12 +564,12 @@ def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     folder.remember("jobs/diagnose/result", answer)
     far = time.time() + 3600.0
 
-    def at_work(kind, *tasks):
+    def at_work(kind, *tasks, said=()):
         for other in ("diagnose", "extend"):
             state = "running" if other == kind else "stopped"
             folder.remember(f"jobs/{other}/job", {"kind": other, "given": {"model": "RV20E-121"}, "begun": far})
             told = [{"done": 0, "total": None, "left": None, "before": None, "what": what, "sentence": what} | more for what, more in tasks]
-            folder.remember(f"jobs/{other}/beat", {"state": state, "at": far, "seconds": 3.0, "said": [], "tasks": told if other == kind else []})
+            folder.remember(f"jobs/{other}/beat", {"state": state, "at": far, "seconds": 3.0, "said": list(said), "tasks": told if other == kind else []})
 
     at_work("extend", ("adding needle_clearance", {}), ("fitting the base model", {}))
     bench.view("diagnose")
@@ -580,6 +581,11 @@ def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     assert page.locator("#step").inner_text() == "screening › placing"
     at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0}), ("screening", {}))
     page.get_by_text("Longer than the last one by now: the last one took 10 min.").wait_for()
+    # Of one that was found again nothing is diagnosed, and nothing would be known sooner by stopping.
+    at_work("diagnose", (PAGE_OF_FOUND, {}), said=["found again: the diagnosis of before"])
+    page.locator("#view").get_by_text("found again: the diagnosis of before").wait_for()
+    shown = page.locator("#view").inner_text()
+    assert "Found again" in shown and PAGE_OF_FOUND in shown and "Diagnosing" not in shown and "as far as it is known" not in shown
     at_work("")
 
 

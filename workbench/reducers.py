@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from discrepancy.intervals import interval_text
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
 from discrepancy.page import amounts
 from discrepancy.written_number import written_entry
@@ -73,8 +74,10 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
             else:
                 written = written_entry(variable, entry)
                 unit = written["unit"]
-                told = {k: number(float(written[k]), 5) for k in ("value", "low", "high") if k in written}
-            interval = f", interval {told['low']} to {told['high']}" if {"low", "high"} <= told.keys() else ""
+                told = {"value": number(float(written["value"]), 5)}
+                if {"low", "high"} <= written.keys():
+                    told["interval"] = interval_text(float(written["low"]), float(written["high"]), 5, number)
+            interval = f", interval {told['interval']}" if "interval" in told else ""
             rows.append({
                 "name": f"effects.{name}.{written_name(known[name], key)}", "value": told["value"], "unit": "" if unit == "1" else unit, "range": "",
                 "meaning": variable.description, "source": f"{file.path.name if file.path else file.name}{interval}", "assumed": False, "outside": False,

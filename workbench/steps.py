@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 # Endings of tables for other programs, and of pictures for a paper.
 TABLES, PICTURES = ("csv", "xlsx", "parquet", "mat"), ("svg", "pdf", "png")
+# What is done where the diagnosis was kept from before; static/diagnose.js knows it by this name.
+PAGE_OF_FOUND = "drawing the page of the diagnosis that was found again"
 # (folder, what was asked, cores, place of the results) -> whether it was stopped.
 Step = Callable[[Folder, dict[str, Any], int, Path], bool]
 
@@ -86,10 +88,10 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer = diagnosed(file, campaign, jobs=jobs)
         except AnswerSoFar as stop:
             answer, stopped = stop.answer, True
-    with task("drawing the page"):
+    found = answer.made if answer.made < began else None
+    with task(PAGE_OF_FOUND if found else "drawing the page"):
         report(answer, place)
-        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"),
-                 "found": answer.made if answer.made < began else None}  # fmt: skip
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found}
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, named_in, refit_text, refusal
+from cli.commands.going_on import extend_line, line_after, named_in, nothing_added, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import DID_NOT_HELP_CODE, add_json, all_cores, folder, page_path
+from cli.options import NOTHING_ADDED_CODE, add_json, all_cores, folder, page_path
 from cli.written import say_file
 from fmu_src.faults import InputFault
 from fmu_src.held_file import held
@@ -178,7 +178,8 @@ def run_diagnose(options: argparse.Namespace) -> int:
 
 
 def run_extend(options: argparse.Namespace) -> int:
-    """Exit code 3 where the effect did not help on unused runs; 130 and 143 as of ``diagnose``."""
+    """Exit code 3 where nothing was added: the effect did not help on unused runs, or the diagnosis names none that may be added by itself;
+    130 and 143 as of ``diagnose``."""
     file, campaign = inputs(options)
     from discrepancy.verdict import AnswerSoFar
 
@@ -241,7 +242,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         with task("diagnosing"):
             answer = diagnosed(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
-            raise InputFault(refusal(options, answer))
+            return nothing_added(options, answer, refusal(options, answer))
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
         try:
@@ -271,7 +272,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         for path in fmus:
             say_file(path, "FMU    ")
     say_page(options)
-    return DID_NOT_HELP_CODE if extension.verdict == DID_NOT_HELP else 0
+    return NOTHING_ADDED_CODE if extension.verdict == DID_NOT_HELP else 0
 
 
 def run_ladder(options: argparse.Namespace) -> int:

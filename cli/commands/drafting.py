@@ -15,7 +15,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cli.options import DID_NOT_HELP_CODE, all_cores
+from cli.commands.going_on import nothing_added
+from cli.options import NOTHING_ADDED_CODE, all_cores
 from cli.written import only_file
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import task
@@ -32,7 +33,7 @@ WORTH = 0.98
 
 
 def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign") -> int:
-    """Exit code 3 where the effect did not help on unused runs."""
+    """Exit code 3 where the effect did not help on unused runs, or there is none to draft."""
     from discrepancy.draft.choose import drafts_of, require_folder, write
     from discrepancy.remembered import diagnosed
 
@@ -44,7 +45,7 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
         answer = diagnosed(file, campaign, jobs=all_cores())
     drafts, reasons = drafts_of(answer, folder, options.name)
     if not drafts:
-        raise InputFault(no_draft(options, answer, reasons))
+        return nothing_added(options, answer, no_draft(options, answer, reasons))
     for draft in drafts:
         write(draft)
     try:
@@ -67,7 +68,7 @@ def tried(options: argparse.Namespace, file: "ModelFile", answer: "Answer", draf
         show_draft(answer, draft, reasons)
         only_file(draft.file)
     done = child(options, draft, [*given(options, ("output", "fmus", "html")), *flags(options, ("anyway", "overwrite"))], options.json)
-    if done.returncode not in (0, DID_NOT_HELP_CODE) or (options.json and not done.stdout.strip()):
+    if done.returncode not in (0, NOTHING_ADDED_CODE) or (options.json and not done.stdout.strip()):
         # The fault was said on the way.
         return done.returncode
     target = options.output or (str(file.path) if file.path else f"{file.name}.toml")

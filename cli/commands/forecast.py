@@ -69,10 +69,12 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit", doub
     from cli.screen import console, dense, styled
     from discrepancy.campaign.amount import readable
     from discrepancy.forecast.forecast import COVERAGE
+    from discrepancy.intervals import digits_of
 
     def text(r: "Range", scale: float = 1.0, most: float = math.inf) -> str:
         """``most``: what lies beyond is more than that, in words."""
-        middle, low, high = (readable(scale * v) if v <= most and math.isfinite(v) else f"over {most:,.0f}" for v in (r.middle, r.low, r.high))
+        digits = digits_of(scale * r.low, scale * r.high, write=readable)
+        middle, low, high = (readable(scale * v, digits) if v <= most and math.isfinite(v) else f"over {most:,.0f}" for v in (r.middle, r.low, r.high))
         return f"{middle} ({low} to {high})"
 
     unit = limit.unit

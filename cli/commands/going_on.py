@@ -3,7 +3,10 @@
 import argparse
 import math
 import shlex
+import sys
 from typing import TYPE_CHECKING
+
+from cli.options import NOTHING_ADDED_CODE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +39,16 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
                      f"adds {'the likeliest of these' if foremost else 'what is named'}, and judges it on runs that were not used"),
     }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
+
+
+def nothing_added(options: argparse.Namespace, answer: "Answer", why: str) -> int:
+    """Says why ``extend`` leaves the model as it is, with ``--json`` as part of the diagnosis; its exit code."""
+    from cli.screen import json_text
+
+    if options.json:
+        json_text(answer.as_json() | {"nothing_added": why})
+    print(f"rvwear extend: {why}", file=sys.stderr)
+    return NOTHING_ADDED_CODE
 
 
 def refusal(options: argparse.Namespace, answer: "Answer") -> str:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from rich.table import Table
 
 from cli import screen
+from cli.columns import fill
 from studies.standard.evaluation import Figure, Test
 
 
@@ -20,19 +21,18 @@ def show_bench(
         return
     many = len(found) > 1
     table = Table(title=f"{measured or reducer}: {test.title}", title_justify="left")
-    spread = any(figure.spread for figures in found.values() for figure in figures)
-    for head in (*(["condition"] if many else []), "figure", "value", "unit", *(["least to most"] if spread else [])):
-        # A figure's name is what people look for: it is never cut.
-        table.add_column(head, justify="right" if head in ("value", "least to most") else "left", no_wrap=head == "figure", overflow="fold")
-    definitions: dict[str, str] = {}
-    for condition, figures in found.items():
-        for k, figure in enumerate(figures):
-            between = [f"{figure.spread[0]:.5g} to {figure.spread[1]:.5g}" if figure.spread else ""] if spread else []
-            table.add_row(*([condition if k == 0 else ""] if many else []), figure.name, f"{figure.value:.6g}", figure.unit, *between)
-            definitions[figure.name] = figure.definition
+    figures = [figure for own in found.values() for figure in own]
+    columns = {"condition": [condition if k == 0 else "" for condition, own in found.items() for k in range(len(own))]} if many else {}
+    # A figure's name is what people look for: it is never cut.
+    columns |= {"figure": [f.name for f in figures], "value": [f"{f.value:.6g}" for f in figures], "unit": [f.unit for f in figures]}
+    spread = ["least to most"] if any(figure.spread for figure in figures) else []
+    if spread:
+        columns["least to most"] = [f"{figure.spread[0]:.5g} to {figure.spread[1]:.5g}" if figure.spread else "" for figure in figures]
     out = screen.console()
+    names = [head for head in columns if head == "condition"]
+    fill(table, columns, out.width - screen.BETWEEN_LINES * len(columns) - screen.EDGE, names, spread, ["value", *spread])
     out.print(table)
     out.print(f"rated torque {rated:g} N.m, ratio {ratio:g}, {curves} {'curve' if curves == 1 else 'curves'}")
-    for name, definition in definitions.items():
+    for name, definition in {figure.name: figure.definition for figure in figures}.items():
         out.print(f"{name}: {definition}")
     out.print(test.text)

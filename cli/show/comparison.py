@@ -6,6 +6,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import Comparison, calibrated_text
@@ -80,24 +81,15 @@ def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibr
         return
     table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else ""))
     rows = worst[:LONGEST]
-    signals = [f.signal.replace("[", "\n[") for f in rows]
     cells = []
-    for signal, f in zip(signals, rows):
+    for f in rows:
         (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
         noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
-        cells.append((signal, f.name, f.condition, measured, noise, model, unit, f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"))
-    columns = dict(zip(("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise"), zip(*cells)))
-    # A signal's words stay whole, and numbers; what is left of the line figure and condition share, whose words may fold.
-    whole = {name: max(len(line) for cell in (name, *column) for line in (cell.split() if name == "signal" else [cell]))
-             for name, column in columns.items() if name not in ("figure", "condition")}  # fmt: skip
-    left = out.width - sum(whole.values()) - BETWEEN * len(columns)
-    condition = min(max(len(cell) for cell in ("condition", *columns["condition"])), left // 2)
-    widths = {**whole, "condition": condition, "figure": left - condition}
-    for name in columns:
-        table.add_column(name, justify="left" if name in ("signal", "figure", "condition", "") else "right", overflow="fold", max_width=widths[name],
-                         min_width=whole.get(name))
-    for row in cells:
-        table.add_row(*row)
+        off = f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"
+        cells.append((f.signal.replace("[", "\n["), f.name, f.condition, measured, noise, model, unit, off))
+    heads = ("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise")
+    numbers = ("measured", "noise", "model", "off/noise")
+    fill(table, dict(zip(heads, zip(*cells))), out.width - BETWEEN * len(heads), ["condition"], ["signal", "figure"], numbers)
     out.print(table)
     if len(figures) > min(len(worst), LONGEST):
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")

@@ -3,6 +3,7 @@
 from typing import Any
 
 from cli.screen import WIDTH, console, dense
+from discrepancy.intervals import digits_of, general
 
 
 def show(found: dict[str, Any]) -> None:
@@ -37,7 +38,11 @@ def show(found: dict[str, Any]) -> None:
 
 
 def cell(value: dict[str, float | None], most: float | None = None) -> str:
-    def text(number: float | None) -> str:
-        return f"> {most:g}" if number is None else f"{number:.3g}" if most is None else f"{number:.0f}"
+    """Value and interval; ``most`` hours were run, and what lasts longer is more than that."""
+    low, high = value["low"], value["high"]
+    digits = 3 if low is None or high is None else digits_of(low, high)
 
-    return f"{text(value['value'])} ({text(value['low'])} .. {text(value['high'])})"
+    def text(number: float | None) -> str:
+        return f"> {most:g}" if number is None else general(number, digits) if most is None else f"{number:.0f}"
+
+    return f"{text(value['value'])} ({text(low)} .. {text(high)})"

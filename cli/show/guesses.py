@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from rich.table import Table
 
-from cli.screen import WIDTH, console, styled
+from cli.columns import fill
+from cli.screen import BETWEEN_LINES, EDGE, WIDTH, console, styled
 from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.in_columns import said_by_columns
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
@@ -15,11 +16,11 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
     """Runs, what each column was taken for and why, conditions, what is not sure, ``findings`` in what was read, what is needed."""
     out = console(WIDTH)
     table = Table(title=f"{proposal.name}: {len(proposal.runs)} run{'s' * (len(proposal.runs) != 1)}", title_justify="left")
-    for column in ("run", "quantity", "condition", "repetition"):
-        # Cut at their ends names look alike.
-        table.add_column(column, overflow="fold")
-    for run in proposal.runs:
-        table.add_row(run.name, run.guessed.quantity.value, run.condition, str(run.replicate.value))
+    columns = {
+        "run": [run.name for run in proposal.runs], "quantity": [run.guessed.quantity.value for run in proposal.runs],
+        "condition": [run.condition for run in proposal.runs], "repetition": [str(run.replicate.value) for run in proposal.runs],
+    }  # fmt: skip
+    fill(table, columns, out.width - BETWEEN_LINES * len(columns) - EDGE, ["run", "condition"])
     out.print(table)
     seen = set()
     for run in proposal.runs:

@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.intervals import estimate_text
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
-from discrepancy.scales import AXES, Scale, largest, of_estimate, of_signal
+from discrepancy.scales import AXES, Scale, of_estimate, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
 
-# A fit moves nothing along directions that the data do not see; its interval then has no width.
-UNDETERMINED = "not determined"
 TITLES = {
     "speed": "input speed",
     "load": "load torque",
@@ -100,13 +99,6 @@ def signal_axis(signal: str, unit: str) -> str:
 
 def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
-    low, high = entry["interval"]
-    size = largest(entry["value"], low, high)
     found = of_estimate(entry)
-    value, unit = found.number(entry["value"]), pretty(found.unit)
-    if high - low <= 1e-9 * size:
-        return number(value), UNDETERMINED, unit
-    low, high = found.number(low), found.number(high)
-    # As many digits as tell the ends apart.
-    digits = next((d for d in range(3, 8) if number(low, d) != number(high, d)), 8)
-    return number(value, digits), f"{number(low, digits)} to {number(high, digits)}", unit
+    low, high = (found.number(end) for end in entry["interval"])
+    return *estimate_text(found.number(entry["value"]), (low, high), 3, number), pretty(found.unit)

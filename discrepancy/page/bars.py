@@ -48,7 +48,7 @@ def shares(
     name: str, title: str, caption: str, groups: Sequence[str], alone: Sequence[float], beside: Sequence[float], texts: tuple[Sequence[str], ...]
 ) -> Figure:
     """Of each of several effects the share [%] that it has alone, and what it adds to the others."""
-    words = ("alone", "beside the others")
+    words = ("alone", "added to the others")
     data = two_bars(groups, (alone, beside), [f"%{{y}}<br>{word}: %{{text}}<extra></extra>" for word in words], words)
     for trace, text in zip(data, texts):
         trace |= {"text": list(text)}

@@ -66,7 +66,7 @@ def shares(answer: Answer) -> Figure:
         values = [100.0 * s for s in beside]
         return bars.single("shares", SHARES, text, names, values, "share [%]", [look.NOW] * len(names), texts, 12, range=[0.0, 112.0])
     alone = [e["share_alone"] for e in answer.effects]
-    text += f" Effects that do alike have much alone and little beside the others; {together_text(answer).partition(';')[0]}."
+    text += f" Effects that do alike take much away alone, and little more when they are added to the others; {together_text(answer).partition(';')[0]}."
     both = [100.0 * s for s in alone], [100.0 * s for s in beside]
     return bars.shares("shares", SHARES, text, names, *both, ([percent(answer, s) for s in alone], [percent(answer, s) for s in beside]))
 
@@ -78,7 +78,7 @@ def base_off(answer: Answer) -> Section:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
         told = told_name(e.name, tables_of(answer.model))
-        numbers = (value, interval, held.text(e.assumed, 3), " to ".join(held.text(v, 3) for v in e.within))
+        numbers = (value, interval, held.text(e.assumed, 3), held.span(*e.within))
         rows.append([told, *map(with_minus, numbers), unit, e.title])
     table = Table("", ["number", "measured", "95 % interval", "assumed", "held to lie in", "unit", "meaning"], rows, (1, 2))
     lead = (

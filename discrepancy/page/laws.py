@@ -135,10 +135,7 @@ def table(law: Recovered) -> Table:
     """Closed forms, most credible first."""
     rows = []
     for form in law.forms[:MOST_FORMS]:
-        intervals = "; ".join(
-            f"{k} = {number(v)} ({number(form.intervals[k][0])} to {number(form.intervals[k][1])})" for k, v in form.parameters.items()
-        )
-        rows.append([form.name, form.text, intervals, number(form.error), f"{100 * form.confidence:.0f} %"])
+        rows.append([form.name, form.text, "; ".join(form.numbers(3, number)), number(form.error), f"{100 * form.confidence:.0f} %"])
     note = (
         f"x: {law.leading.replace('_', ' ')}{in_unit(law.x_told[2])}, y: misfit{' / ' + law.factor if law.factor else ''}"
         f"{in_unit(law.y_told[1])}; 95 % intervals. Errors are on points left out, in times the noise."

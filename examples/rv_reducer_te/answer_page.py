@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from named_physics import ARCSEC, LADDER
 
+from discrepancy.intervals import interval_text
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from pages.charts import Curve, chart
@@ -175,7 +176,7 @@ def number_table(result: Mapping[str, Any]) -> Table:
     for rung in LADDER:
         for n in rung.numbers:
             v = result["numbers"][n.name]
-            rows.append([str(len(rows) + 1), rung.effect, n.name, f"{v['value']:.4g}", f"{v['low']:.3g} to {v['high']:.3g}"])
+            rows.append([str(len(rows) + 1), rung.effect, n.name, f"{v['value']:.4g}", interval_text(v["low"], v["high"])])
     return Table("SI units, as in docs/effects.md", ["", "effect", "number", "value", "95 %"], rows, (0, 3))
 
 

@@ -11,6 +11,9 @@ import { dimmed, past } from "./past.js";
 // What a diagnosis is called that begins at the beginning, or goes on; its steps stand within.
 const WHOLE = ["the whole diagnosis", "the rest of the diagnosis"];
 
+// What is done where the diagnosis was kept from before (steps.py): nothing is diagnosed then.
+const PAGE_OF_FOUND = "drawing the page of the diagnosis that was found again";
+
 // What the answer took; one of the same model and measurements that is kept is found again, and nothing is computed then.
 function took(answer) {
   const spent = `${duration(answer.seconds)} of computing`;
@@ -69,17 +72,18 @@ export function show(root, context) {
       clear(live);
       return;
     }
+    const found = job.tasks.some((t) => t.what === PAGE_OF_FOUND);
     clear(
       live,
       h(
         "div",
         { class: "panel" },
-        h("h1", {}, "Diagnosing"),
+        h("h1", {}, found ? "Found again" : "Diagnosing"),
         h("p", { class: "quiet", id: "step" }, job.tasks.slice(job.tasks.findIndex((t) => WHOLE.includes(t.what)) + 1).map((t, i) => [i ? " › " : "", t.sentence])),
         whole(job),
         job.said.length
           ? [
-              h("h3", {}, "Known so far"),
+              found ? null : h("h3", {}, "Known so far"),
               h(
                 "ul",
                 { id: "sofar" },
@@ -87,7 +91,7 @@ export function show(root, context) {
               ),
             ]
           : h("p", { class: "quiet" }, "The base model is fitted first, then each effect is held against what it leaves."),
-        h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
+        found ? null : h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
       ),
     );
   }

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.special import stdtrit
 
+from discrepancy.intervals import Writer, estimate_text
 from fmu_src.arrays import Floats
 
 # y of x and the constants; and, for each law, its text, its constants, the function and where fits begin.
@@ -25,6 +26,11 @@ class Form:
     intervals: dict[str, tuple[float, float]]
     error: float
     confidence: float
+
+    def numbers(self, least: int, write: Writer) -> list[str]:
+        """``a = 1.234 (1.123 to 1.345)`` of each parameter, with ``least`` digits and more; what the form holds at 0 is left out."""
+        told = {k: estimate_text(v, self.intervals[k], least, write) for k, v in self.parameters.items() if self.intervals[k] != (0.0, 0.0)}
+        return [f"{k} = {value} ({interval})" for k, (value, interval) in told.items()]
 
     def to_dict(self) -> dict[str, Any]:
         return {**self.__dict__, "intervals": {k: list(v) for k, v in self.intervals.items()}}

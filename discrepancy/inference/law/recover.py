@@ -12,6 +12,7 @@ from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
 from discrepancy.inference.law.waves import WAYS, wave_of
 from discrepancy.inference.noise.series import order_axis, spacing_of, stream_of
+from discrepancy.intervals import general
 from fmu_src.arrays import Floats
 
 BINS = 24
@@ -282,8 +283,7 @@ def _text(signal: str, way: str, lead: str, forms: Sequence[Form], x_unit: str, 
     if not forms:
         return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: too few levels for a form"
     best = forms[0]
-    numbers = ", ".join(f"{k} = {v:.4g} ({best.intervals[k][0]:.3g} to {best.intervals[k][1]:.3g})" for k, v in best.parameters.items()
-                        if best.intervals[k] != (0.0, 0.0))
+    numbers = ", ".join(best.numbers(3, general))
     if best.name == "constant":
         return f"misfit of {signal} in proportion to {way}: {of('share', y_unit)} {numbers}"
     return f"{of(misfit, y_unit)} over {of(lead, x_unit)}: {best.text}, {numbers}"
