@@ -22,6 +22,7 @@ from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable, Table
 
 from discrepancy.campaign.amount import is_number, split
+from discrepancy.counted_from import zero_texts
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from discrepancy.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
@@ -252,7 +253,11 @@ def written_name(effect: Effect, parameter: str) -> str:
 def save_model(model: ModelFile, path: Path) -> None:
     """Write the model; the file is replaced at once, never left half written."""
     document = tomlkit.document()
-    document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
+    head = tomlkit.table()
+    head.update({"name": model.name, "reducer": reducer_reference(model, path)})
+    for text in zero_texts(model.reducer, model.steps):
+        head.add(tomlkit.comment(text))
+    document["model"] = head
     if model.settings:
         settings = tomlkit.table()
         for name, value in model.settings.items():
