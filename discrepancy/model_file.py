@@ -21,10 +21,12 @@ import tomlkit
 from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable, Table
 
-from discrepancy.campaign.amount import split
+from discrepancy.campaign.amount import is_number, split
+from discrepancy.counted_from import zero_texts
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from discrepancy.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
+from fmu_src.display import display_unit
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
 from fmu_src.faults import InputFault, nearest
@@ -34,6 +36,7 @@ from fmu_src.reading import quoted, read_toml, reading, shown
 from fmu_src.source_hash import USER_EFFECTS
 from fmu_src.strict_file import Strict, described, validated
 from fmu_src.units import UnitError, conversion
+from fmu_src.unstated_unit import check_given
 from fmu_src.variables import ValueFault, Variable
 from orchestrator.settings import parse_setting
 from reducers.reducer import Reducer, load_reducer
@@ -201,11 +204,13 @@ def model_of(content: dict[str, Any], path: Path) -> ModelFile:
 def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any]:
     """A parameter's value and interval in its own unit, within its bounds; ``key`` is what kernels call it."""
     variable = parameter_variable(effect, key)
+    usual = display_unit(variable) or variable.unit
     if isinstance(entry, str):
-        value, unit = split(entry, variable.unit, place)
+        value, unit = split(entry, usual, place)
         entry = {"value": value, "unit": unit}
     if not isinstance(entry, dict) or "value" not in entry:
-        raise InputFault(f'{place} = {quoted(entry)}: write "0.07 {variable.unit}", or {{ value = 0.07, unit = "{variable.unit}" }}')
+        meant = f"{entry:g}" if is_number(entry) else "0.07"
+        raise InputFault(f'{place} = {quoted(entry)}: write "{meant} {usual}", or {{ value = {meant}, unit = "{usual}" }}')
     unknown = sorted(entry.keys() - set(Number.model_fields))
     if unknown:
         raise InputFault(f"{place}.{shown(unknown[0])}: there is no such key{nearest(unknown[0], Number.model_fields, 1)}")
@@ -213,7 +218,7 @@ def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any
         number = Number(**entry)
         factor, offset = conversion(number.unit or variable.unit, variable.unit)
         numbers = {name: factor * value + offset for name in ("value", "low", "high") if (value := getattr(number, name)) is not None}
-        variable.check(numbers["value"])
+        check_given(variable, numbers["value"], bool(number.unit))
     except ValidationError as problem:
         raise InputFault(f"{place}.{described(problem, Number, entry)}") from None
     except (UnitError, ValueFault) as problem:
@@ -248,7 +253,11 @@ def written_name(effect: Effect, parameter: str) -> str:
 def save_model(model: ModelFile, path: Path) -> None:
     """Write the model; the file is replaced at once, never left half written."""
     document = tomlkit.document()
-    document["model"] = {"name": model.name, "reducer": reducer_reference(model, path)}
+    head = tomlkit.table()
+    head.update({"name": model.name, "reducer": reducer_reference(model, path)})
+    for text in zero_texts(model.reducer, model.steps):
+        head.add(tomlkit.comment(text))
+    document["model"] = head
     if model.settings:
         settings = tomlkit.table()
         for name, value in model.settings.items():

@@ -20,6 +20,10 @@ ANY = (-1e15, 1e15, 1.0)
 # What an FMI 2.0 Integer holds.
 INTEGER = (-(2**31 - 1), 2**31 - 1, 1.0)
 
+# From here on a number that was given without a unit is not taken for SI, whatever the bounds allow: pins 0.25 m from the
+# axis, motors at 9500 rpm [assumed: larger and faster than any reducer of catalogues].
+DOUBTFUL = {"m": 0.25, "rad/s": 1000.0}
+
 
 def usual_limits(unit: str, integer: bool) -> tuple[float, float, float]:
     """(lowest, highest, nominal) for a unit."""

@@ -38,7 +38,7 @@ from orchestrator.component import Component, InProcess
 from orchestrator.master import Connection, LoopSettings, StepControl
 from orchestrator.master.power import THRESHOLD
 from orchestrator.opening import open_fmu
-from orchestrator.settings import parse_value
+from orchestrator.settings import set_given
 from reducers.reducer import load_reducer
 
 REMEDY = "see docs/scenarios.md"
@@ -199,8 +199,8 @@ def make_component(name: str, entry: ComponentEntry, path: Path, isolate: bool, 
 
 def set_parameter(component: Component, key: str, value: str | float, place: str) -> None:
     """A number is in the variable's unit, a text carries its own."""
-    signal = component.as_written(key)
+    name = component.as_written(key).name
     try:
-        component.set(key, parse_value(value, signal) if isinstance(value, str) else value)
+        set_given(component, name, value)
     except (UnitError, InputFault) as problem:
         raise InputFault(f"{place}.parameters.{key} = {value!r}: {problem}") from None

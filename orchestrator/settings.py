@@ -8,14 +8,17 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+import numpy.typing as npt
+
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest
 from fmu_src.names import found_by_name, settable_names
 from fmu_src.reading import quoted
 from fmu_src.table import Table
 from fmu_src.units import UnitError, conversion
+from fmu_src.unstated_unit import check_given
 from fmu_src.variables import SETTABLE, ValueFault, Variable
-from orchestrator.component import Component, Signal
+from orchestrator.component import Component, InProcess, Signal
 
 # Signs of a setting (assumed: names and units have a fraction of it).
 LONGEST = 500
@@ -62,7 +65,7 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
                 raise InputFault(f"setting {text!r}: {problem.args[0]}") from None
         try:
             number = parse_value(value.strip(), variable)
-            variable.check(number, element)
+            check_given(variable, number, has_unit(value), element)
         except (UnitError, ValueFault, InputFault) as problem:
             raise InputFault(f"setting {text!r}: {problem}") from None
     return Setting(owners[0][1].name + bracket + rest, number)
@@ -89,12 +92,32 @@ def parse_value(text: str, variable: Variable | Signal) -> float | int:
     return number
 
 
+def has_unit(text: str) -> bool:
+    """Whether something stands behind the number."""
+    match = NUMBER.match(text)
+    return bool(match and match[2])
+
+
 def require_point(text: str) -> None:
     """InputFault for a number with a comma in it, with what is to be written."""
     if found := COMMA.match(text):
         whole, rest, unit = found.groups()
         meant = f"{whole}.{rest}{unit}" if len(rest) != 3 else f"{whole}{rest}{unit}, or {whole}.{rest}{unit}"
         raise InputFault(f"{text.strip()!r} has a comma in its number; write {meant}")
+
+
+def set_given(component: Component, name: str, value: npt.ArrayLike) -> None:
+    """Set what a file or a caller says: a number is in the variable's unit, a text carries its own."""
+    signal = component.signal(name)
+    number = parse_value(value, signal) if isinstance(value, str) else value
+    # Of FMUs nothing says in which unit people read a variable.
+    if isinstance(component, InProcess) and isinstance(number, int | float):
+        variable = component.table.element_at(signal.references[0])[0]
+        try:
+            check_given(variable, number, isinstance(value, str) and has_unit(value), name)
+        except ValueFault as fault:
+            raise InputFault(f"{component.name}: {fault}") from None
+    component.set(name, number)
 
 
 def variable_name(variable: Variable | Signal) -> str:

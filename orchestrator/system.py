@@ -26,7 +26,7 @@ from orchestrator.opening import open_fmu
 from orchestrator.scenario import Limit, read_scenario
 from orchestrator.schemes import SCHEMES
 from orchestrator.scratch import Scratch
-from orchestrator.settings import parse_value
+from orchestrator.settings import set_given
 from orchestrator.ssp.importer import Structure, read_ssp
 from orchestrator.ssp.parameters import apply
 
@@ -58,7 +58,7 @@ class System:
     def __setitem__(self, path: str, value: npt.ArrayLike) -> None:
         """Set a parameter or input: a number in its unit, or a text with its own ("150 N.m")."""
         name, signal = resolve(self.master.components, path)
-        self.master.components[name].set(signal.name, parse_value(value, signal) if isinstance(value, str) else value)
+        set_given(self.master.components[name], signal.name, value)
 
     def initialise(self) -> None:
         if not self.initialised:

@@ -103,6 +103,8 @@ def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint:
         with task("hours of life", total=round(wanted.life.hours)) as hours:
 
             def show(state: Life) -> None:
+                # It begins again at 0 h with every run.
+                hours.what = f"hours since new, {'again ' if state.coarse else ''}in {state.jumps} jump{'s' * (state.jumps > 1)}"
                 hours.done = round(state.hours[-1])
                 progress(state)
 

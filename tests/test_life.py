@@ -1,14 +1,18 @@
 """A life in jumps: error control, resumption, and independence of how the hours are cut."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from cli.show.life import telling
 from fmu_src.faults import InputFault, RunFault
+from fmu_src.progress import told_to
 from orchestrator.settings import Setting
 from studies.checkpoint import load_checkpoint, save_checkpoint
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
+from studies.kept_life import WantedLife, whole_life
 from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
 from studies.pair import make_pair
 
@@ -38,6 +42,15 @@ def test_hours_start_at_zero_and_end_where_asked(short):
     assert short.hours[0] == 0.0
     assert short.hours[-1] == pytest.approx(400.0, rel=1e-9)
     assert np.all(np.diff(short.hours) > 0.0)
+
+
+def test_progress_says_that_hours_count_from_new_and_which_run_it_is(rv20e):
+    """"hours of life: 525 of 10000" of the second run were read as hours of that run."""
+    tasks, heard = [], []
+    with told_to(SimpleNamespace(begin=tasks.append, end=lambda task: None, say=lambda text: None)):
+        whole_life(WantedLife(rv20e, [UNDIVIDED], LifeSettings(hours=100.0, tolerance=0.1), COARSE), lambda state: heard.append(tasks[-1].sentence()))
+    assert heard[0].startswith("hours since new, in 1 jump: 100 of 100")
+    assert any(text.startswith("hours since new, again in 2 jumps: 25 of 100") for text in heard)
 
 
 def test_wear_only_grows(short):

@@ -12,7 +12,7 @@ from benchmarks.locked_position import departure, loops
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.locked_doubts import locked_doubts
-from discrepancy.model_file import load_model
+from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import angle_zero
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -179,6 +179,31 @@ def test_positions_are_counted_as_the_angles_of_their_mounting(tmp_path):
     here, there = lost_motions(tmp_path, text, **{angle_zero(record): 0.01})
     assert here == pytest.approx(there, rel=1e-9)
     assert abs(here / lost_motions(tmp_path, text)[0] - 1.0) > 0.01
+
+
+def test_a_model_file_and_the_command_say_what_positions_count_from(tmp_path, capsys):
+    """A position of the bench was read as one of the model: what the campaign's zero is stood in no words."""
+    zero, path = 0.01, tmp_path / "better.toml"
+    steps = ({"campaign": "bench 7", "effects": [], "kept": True, "nuisances": {"angle_zero[1]": zero, "lag_share": 1.0}},
+             {"campaign": "tried", "effects": [], "kept": False, "nuisances": {"angle_zero[1]": 1.0}})  # fmt: skip
+    save_model(replace(load_model("RV20E-121"), name="better", steps=steps), path)
+    said = ("angle 0 of campaign 'bench 7', mounting '1', is at output angle 0.573 deg of this model:"
+            " --locked-at is the campaign's position of the input + 69.3 deg")  # fmt: skip
+    assert path.read_text().splitlines()[3] == f"# {said}" and path.read_text().count("angle 0 of") == 1
+    # Read and written again it stands once.
+    save_model(load_model(path), path)
+    assert path.read_text().count(f"# {said}") == 1
+    begins = "positions of the input count from where the model begins: an eccentric of disc 1 points at crank 1"
+    assert main(["hysteresis", "--reducer", str(path), "--steps", "8", "--locked-at", "69.3"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert begins in told and said in told
+    assert main(["hysteresis", "--steps", "4", "--angles", "1"]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert begins in told and "angle 0 of" not in told
+    # And so it is: what the bench has at 0 is what the command shows there.
+    text = conditions(a='locked_at = "0 deg"') + run("a", "lost_motion", "a", 'value = "0.9 arcmin"')
+    (bench,) = lost_motions(tmp_path / "bench", text, **{"angle_zero[1]": zero})
+    assert hysteresis(load_reducer("RV20E-121"), [], locked_at=math.radians(69.3)).lost_motion_arcmin == pytest.approx(bench, rel=0.01)
 
 
 def test_loops_of_unknown_position_are_said_where_that_shows(tmp_path):

@@ -727,6 +727,32 @@ def test_a_life_of_another_model_says_so(bench):
     assert "they have changed since" in said[2][0]
 
 
+def test_a_life_that_runs_says_what_its_hours_count_from_and_which_run_it_is(bench):
+    """"525 of 10,000 h" of the second run, or after a pause, might have been hours of that run alone."""
+    page, live = bench.page, {"now": {"model": "RV20E-121", "hours": [0, 525], "until": 10_000, "jumps": 1, "again": False, "panes": []}, "before": {}}
+    page.goto(bench.address)
+    page.route("**/results/life/live", lambda route: route.fulfill(json=live))
+    show = """async (state) => {
+      const { show } = await import('./static/life.js'), place = document.getElementById('view');
+      const job = { state, given: { model: 'RV20E-121' } };
+      place.replaceChildren();
+      show(place, { state: { jobs: { life: job } }, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '' });
+      for (let k = 0; k < 100 && !place.querySelector('h1'); k++) await new Promise((done) => setTimeout(done, 50));
+      return [place.querySelector('h1').textContent, place.querySelector('#which-run').textContent, place.querySelector('.note')?.textContent ?? ''];
+    }"""
+    title = "RV20E-121: 525 of 10,000 operating hours since new"
+    first = "First run through these hours, in 1 jump; then from new again in more of them, until two runs agree."
+    assert page.evaluate(show, "running") == [title, first, ""]
+    live["now"] |= {"jumps": 6, "again": True}
+    live["before"] = {"jumps": 3, "hours": [0], "panes": []}
+    second = "Another run through the same hours, from new, in 6 jumps; dashed: the run before, in 3. How far two runs differ is their error."
+    assert page.evaluate(show, "running") == [title, second, ""]
+    # Gone on with after a pause nobody has the curves of the run before.
+    live["before"] = {}
+    paused = "Paused at 525 of 10,000 operating hours since new: the life goes on from its last jump, as long as hours, torque and model stay."
+    assert page.evaluate(show, "stopped") == [title, second.replace("; dashed: the run before, in 3", ""), paused]
+
+
 def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typed_since_stays(bench):
     """After a reload 10000 stood beside a life of 6000 h, and a paused one would have begun anew."""
     page = bench.page

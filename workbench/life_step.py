@@ -51,7 +51,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
         nonlocal before, now
         if now and now["jumps"] != state.jumps:
             before = now
-        now = curves(state.hours, state.figures) | {"jumps": state.jumps, "model": str(given["model"]), "until": hours}
+        now = curves(state.hours, state.figures) | {"jumps": state.jumps, "again": bool(state.coarse), "model": str(given["model"]), "until": hours}
         write_json(place / "live.json", {"now": now, "before": before})
 
     with held(path):

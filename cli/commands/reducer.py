@@ -28,7 +28,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     places = loop.add_mutually_exclusive_group()
     places.add_argument("--angles", type=int, default=16, help="positions of the input over a turn of the cranks, averaged (default 16)")
     places.add_argument("--locked-at", type=number_in("deg"), metavar="ANGLE",
-                        help="angle of the input at which alone it is locked, in deg unless a unit is given; 0 is where an FMU begins")
+                        help="angle of the input at which alone it is locked, in deg unless a unit is given; 0 is where model and FMU begin"
+                             " (of a campaign: see the model file that `extend` wrote)")  # fmt: skip
     add_json(loop)
     add_exports(loop)
     loop.set_defaults(run=hysteresis)
@@ -69,6 +70,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     import math
 
     from cli import screen
+    from discrepancy.counted_from import counted_from
     from studies.effects_set import effects_set
     from studies.figure_units import HELD, WIDTHS
     from studies.hysteresis import hysteresis as measure
@@ -89,7 +91,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
         about = f"{reducer.name}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
-        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}")
+        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{counted_from(options.reducer)}")
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0

@@ -1,20 +1,50 @@
-"""The parts of a reducer to scale, as they stand at crank angle 0: ring of pins, discs, cranks with rollers, first stage, contacts."""
+"""The parts of a reducer to scale, as they stand at crank angle 0: ring of pins, discs, cranks with rollers, first stage, contacts.
+
+Parts that are out of place stand in a colour of their own beside the ideal ones, as far off as can be seen.
+"""
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fmu_src.arrays import Floats, Points
+from fmu_src.arrays import Floats, Points, Records
 from orchestrator.component import InProcess
 from pages import look
 from pages.look import Figure, Trace, path
+from pages.words import number
 from reducers.reducer import Reducer
+from rv_plant.effects import EFFECTS
 from rv_plant.geometry import lobe_point, shortening
 from studies.report.shapes import MM, directions, joined, ring
 
 # Points per lobe, and the length of the largest force in pin circle radii.
 PER_LOBE, LONGEST_FORCE = 48, 0.22
 DISC_COLOURS = ("#0b4f94", "#d55e00", "#009e73")
+# Of parts out of place; the largest error is drawn at most so long, in pin circle radii; what is less is none [mm].
+OFF, LONGEST_ERROR, NO_ERROR = "#a3195b", 0.04, 1e-9
+
+
+@dataclass(frozen=True)
+class PartsOff:
+    """Parts of one kind that are out of place: their ideal contours, and how far each point of these is off [mm].
+
+    ``disc`` counts from 0; ``shown``: the ideal contours stand in the drawing anyway.
+    """
+
+    what: str
+    ideal: list[Points]
+    by: list[Points]
+    disc: int = 0
+    shown: bool = False
+
+    @property
+    def largest(self) -> float:
+        return max(float(np.abs(by).max()) for by in self.by)
+
+    @property
+    def words(self) -> str:
+        return f"{self.what}, up to {number(1e3 * self.largest)} µm"
 
 
 def eccentric(reducer: Reducer, d: int) -> complex:
@@ -49,13 +79,18 @@ def contact_points(reducer: Reducer, d: int) -> tuple[Points, Points]:
     return pin_places(reducer) - MM * s["pin_radius"] * normals, normals
 
 
-def pin_forces(reducer: Reducer) -> Floats:
-    """Forces [N] of the plant at rated torque and crank angle 0, shape (discs, pins)."""
+def at_rest(reducer: Reducer) -> Records:
+    """The plant at rated torque and crank angle 0."""
     plant = InProcess("plant", reducer.specification("rv_plant"))
     plant.set("input_speed", 0.0)
     plant.exit_initialisation()
     plant.step(0.0, 1.0)
-    return np.array(plant.records["mesh_force"][0], float)
+    return plant.records
+
+
+def pin_forces(reducer: Reducer) -> Floats:
+    """Forces [N] of the plant at rated torque and crank angle 0, shape (discs, pins)."""
+    return np.array(at_rest(reducer)["mesh_force"][0], float)
 
 
 def assembly(reducer: Reducer, diameter: float | None) -> Figure:
@@ -71,13 +106,16 @@ def assembly(reducer: Reducer, diameter: float | None) -> Figure:
     traces += cranks(reducer)
     traces.append(path(joined([ring(MM * s["pin_radius"], place, 32) for place in pin_places(reducer)]), look.INK, 0.9))
     traces += forces(reducer)
+    off = parts_off(reducer)
+    times = enlarged(reducer, off)
+    traces += [trace for parts in off for trace in off_traces(parts, times)]
     traces = [{"showlegend": False} | trace for trace in traces]
     picture = look.drawing([-reach, reach], [-reach, reach]) | {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 0, "yanchor": "top"}}
     picture["margin"] = {"l": 4, "r": 4, "t": 4, "b": 36}
     return Figure(
         "assembly", "The parts to scale",
         "Crank angle 0, seen along the axis; disc 1 is filled, the first stage's pitch circles are dashed."
-        " Forces of flanks on pins at rated torque stand on their contacts, as long as they are large.",
+        f" Forces of flanks on pins at rated torque stand on their contacts, as long as they are large.{off_words(reducer, off, times)}",
         traces, picture, 7, aspect="1 / 1.05",
     )  # fmt: skip
 
@@ -89,6 +127,8 @@ def zoom(whole: Figure, reducer: Reducer) -> Figure:
     half = 3.2 * MM * reducer.starts["pin_circle_radius"] * math.sin(math.pi / reducer.topology.pins)
     picture = look.drawing([centre.real - half, centre.real + half], [centre.imag - half, centre.imag + half])
     caption = f"The most loaded pin carries {force.max():,.0f} N; {int((force > 0.0).sum())} of {force.size} pins touch disc 1."
+    if times := enlarged(reducer, parts_off(reducer)):
+        caption += f" Errors are drawn {times:,.0f} times."
     return Figure("teeth", "Teeth and pins", caption, whole.data, picture, 5, aspect="1 / 1.05")
 
 
@@ -119,3 +159,93 @@ def forces(reducer: Reducer) -> list[Trace]:
         lines = [np.array([p, p + most * f * n]) for p, n, f in zip(points, normals, row) if f > 0.0]
         traces.append(path(joined(lines), DISC_COLOURS[d], 2.2))
     return traces
+
+
+def parts_off(reducer: Reducer) -> list[PartsOff]:
+    """Parts out of place by effects, or by errors that the file states, kind by kind and disc by disc."""
+    found, t, now = [], reducer.topology, at_rest(reducer)[0]
+    inner, outer, axis = (MM * reducer.starts[k] for k in ("inner_race_radius", "outer_race_radius", "crank_circle_radius"))
+    ways = directions(360.0 * np.arange(t.cranks) / t.cranks)
+    for d in range(t.discs):
+        middles, turn = axis * ways + eccentric(reducer, d), np.exp(2j * math.pi * d / t.discs)
+        throw = now["eccentricity"] + now["crank_eccentricity_error"][d] + now["throw_added"][d]
+        turned = now["crank_phase_error"][d] + now["lobe_turn_added"][d]
+        hole = now["disc_hole_error_radial"][d] + now["hole_radial_added"][d] + 1j * (now["disc_hole_error_tangential"][d] + now["hole_tangential_added"][d])
+        found += [
+            flanks_off(reducer, now, d),
+            circles_off(f"holes of disc {d + 1}", outer, middles, MM * ways * hole, d),
+            circles_off(f"lobes of the cranks at disc {d + 1}", inner, middles, MM * turn * (throw * np.exp(1j * turned) - now["eccentricity"]), d),
+        ]
+    seat = now["carrier_hole_error_radial"] + now["seat_radial_added"] + 1j * (now["carrier_hole_error_tangential"] + now["seat_tangential_added"])
+    # A seat's own radius is nobody's number: half of the race above it stands for it.
+    found += [circles_off("seats of the cranks in the carrier", 0.5 * inner, axis * ways, MM * ways * seat), pins_off(reducer, now)]
+    return [parts for parts in found if parts.ideal]
+
+
+def circles_off(what: str, radius: float, middles: Points, by: Points, d: int = 0) -> PartsOff:
+    """Those of equal circles that are displaced by more than nothing."""
+    which = np.flatnonzero(np.abs(by) > NO_ERROR)
+    return PartsOff(what, [ring(radius, middles[i]) for i in which], [np.full(121, by[i]) for i in which], d)
+
+
+def flanks_off(reducer: Reducer, now: Records, d: int) -> PartsOff:
+    """The profile of disc ``d``: material that is missing, drawn inwards, and lobes along the pitch."""
+    ideal = outline(reducer, d)
+    ways = ideal - eccentric(reducer, d)
+    ways /= np.abs(ways)
+    # A lobe of the outline goes from tip to tip, one of the plant from root to root.
+    lobe = (np.arange(ideal.size) - PER_LOBE // 2) // PER_LOBE
+    missing = (now["lobe_profile_error"] + now["lobe_gap_added"])[d, lobe]
+    along = (now["lobe_pitch_error"] + now["lobe_pitch_added"])[d, lobe]
+    by = MM * ways * (1j * along - missing)
+    is_off = np.abs(by).max() > NO_ERROR
+    return PartsOff(f"teeth of disc {d + 1}", [np.append(ideal, ideal[0])] if is_off else [], [np.append(by, by[0])] if is_off else [], d, True)
+
+
+def pins_off(reducer: Reducer, now: Records) -> PartsOff:
+    """Pins displaced, or thicker than the others."""
+    places = pin_places(reducer)
+    thicker = MM * (now["pin_radius_error"] + now["pin_radius_added"])
+    by = [MM * (x + 1j * y) - place + ring(thick, 0.0, 32) for x, y, place, thick in zip(now["pin_x"], now["pin_y"], places, thicker)]
+    which = [i for i, each in enumerate(by) if np.abs(each).max() > NO_ERROR]
+    return PartsOff("pins", [ring(MM * reducer.starts["pin_radius"], places[i], 32) for i in which], [by[i] for i in which], shown=True)
+
+
+def enlarged(reducer: Reducer, off: list[PartsOff]) -> float:
+    """How many times errors are enlarged, one number for all; 0 where nothing is out of place."""
+    return look.round_down(LONGEST_ERROR * MM * reducer.starts["pin_circle_radius"] / max(parts.largest for parts in off)) if off else 0.0
+
+
+def off_traces(parts: PartsOff, times: float) -> list[Trace]:
+    """Where the parts should be, dotted, and where they are, in a dash for each disc."""
+    moved = joined([ideal + times * by for ideal, by in zip(parts.ideal, parts.by)])
+    name = f"{parts.words} (drawn {times:,.0f} times)"
+    ideal = [] if parts.shown else [path(joined(parts.ideal), OFF, 0.7, dash="dot")]
+    return [*ideal, path(moved, OFF, 1.5, dash=("solid", "dash", "dashdot")[parts.disc], name=name, showlegend=True)]
+
+
+def off_words(reducer: Reducer, off: list[PartsOff], times: float) -> str:
+    """What is drawn out of place and how many times enlarged, and which effects' numbers the drawing does not have."""
+    drawn = f" Errors are drawn {times:,.0f} times, in red beside the ideal part: {'; '.join(parts.words for parts in off)}." if off else ""
+    left = undrawn(reducer, off)
+    return drawn + (f" Not drawn: {', '.join(left)}." if left else "")
+
+
+def undrawn(reducer: Reducer, off: list[PartsOff]) -> list[str]:
+    """Numbers of effects that are on and move nothing of the drawing."""
+    told = []
+    for name, effect in EFFECTS.items():
+        for variable in (p.variable for p in effect.amplitudes()):
+            if reducer.starts.get(variable.name, variable.start) == variable.start:
+                continue
+            without = parts_off(replace(reducer, starts=reducer.starts | {variable.name: variable.start}))
+            if same(without, off):
+                told.append(f"{name.replace('_', ' ')} ({variable.path.rpartition('.')[2].replace('_', ' ')})")
+    return told
+
+
+def same(some: list[PartsOff], others: list[PartsOff]) -> bool:
+    """Whether the same parts are off by the same."""
+    return [p.what for p in some] == [p.what for p in others] and all(
+        len(a.by) == len(b.by) and all(np.array_equal(x, y) for x, y in zip(a.by, b.by)) for a, b in zip(some, others)
+    )

@@ -14,6 +14,16 @@ const USUAL_HOURS = "10000";
 // The report in the colours of the page around it: they may be others than the screen's.
 const embedded = () => `results/life/report?colours=${document.documentElement.classList.contains("dark") ? "dark" : "light"}`;
 
+// Hours go back to 0 when a life is run through again; after a pause they go on.
+function whichRun(now, before) {
+  const jumps = `${now.jumps} jump${now.jumps === 1 ? "" : "s"}`;
+  if (!now.again && !before?.jumps) return `First run through these hours, in ${jumps}; then from new again in more of them, until two runs agree.`;
+  const dashed = before?.jumps ? `; dashed: the run before, in ${before.jumps}` : "";
+  return `Another run through the same hours, from new, in ${jumps}${dashed}. How far two runs differ is their error.`;
+}
+
+const since = (now) => `${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} operating hours since new`;
+
 export function show(root, context) {
   let live = null,
     result = null,
@@ -106,7 +116,7 @@ export function show(root, context) {
         result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null,
       ),
       job?.fault && job.state !== "running" ? note(job.fault, "bad") : null,
-      paused ? note("Paused: the life goes on from its last jump, as long as hours, torque and model stay.") : null,
+      paused ? note(`Paused${live ? ` at ${since(live.now)}` : ""}: the life goes on from its last jump, as long as hours, torque and model stay.`) : null,
     );
   }
 
@@ -131,13 +141,11 @@ export function show(root, context) {
       h(
         "h1",
         {},
-        result ? result.title : `${now.model}: ${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} h`,
+        result ? result.title : `${now.model}: ${since(now)}`,
       ),
       h("p", { class: "lead" }, last.join(" · ")),
       h("p", { class: "quiet small" }, now.how ?? ""),
-      result
-        ? null
-        : h("p", { class: "quiet small" }, `${now.jumps} jumps in this run${live.before?.jumps ? `; dashed: the run before, in ${live.before.jumps}` : ""}`),
+      result ? null : h("p", { class: "quiet small", id: "which-run" }, whichRun(now, live.before)),
     );
     chart.hidden = false;
     if (!plot) {

@@ -159,6 +159,7 @@ const MEANINGS = {
   "#98a3af": "--measured",
   "#7d8894": "--measured",
   "#d55e00": "--tried",
+  "#a3195b": "--a",
   "#eef1f4": "--soft",
   "#e3e9f0": "--soft",
 };

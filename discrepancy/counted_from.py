@@ -1,0 +1,44 @@
+"""What positions of the input count from: those of a model from where it begins, those of a bench from the zero of its encoder, which a campaign finds."""
+
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from fmu_src.reading import quoted
+from reducers.reducer import Reducer, is_model_file
+from rv_plant.gear_stage import total_ratio
+
+BEGINS = "positions of the input count from where the model begins: an eccentric of disc 1 points at crank 1"
+ZERO = "angle_zero["
+
+
+def zeros_of(steps: Iterable[Mapping[str, Any]]) -> dict[tuple[str, str], float]:
+    """(campaign, mounting) -> the output angle of the model [rad] at which that campaign's angle is 0, by the last step that was kept."""
+    return {
+        (str(step.get("campaign", "")), name.removeprefix(ZERO).rstrip("]")): float(zero)
+        for step in steps if step.get("kept", True)
+        for name, zero in step.get("nuisances", {}).items() if name.startswith(ZERO)
+    }  # fmt: skip
+
+
+def zero_texts(reducer: Reducer, steps: Iterable[Mapping[str, Any]]) -> list[str]:
+    """A line for each mounting of which it is known: where its angle 0 is, and how its positions become those of the model."""
+    t = reducer.topology
+    ratio = abs(total_ratio(reducer.starts["first_stage_ratio"], t.pins, t.lobes))
+    return [
+        f"angle 0 of campaign {quoted(campaign)}, mounting {quoted(mounting)}, is at output angle {math.degrees(zero):.4g} deg of this model:"
+        f" --locked-at is the campaign's position of the input {'-' if zero < 0.0 else '+'} {math.degrees(abs(zero)) * ratio:.1f} deg"
+        for (campaign, mounting), zero in zeros_of(steps).items()
+    ]
+
+
+def counted_from(name: str | Path) -> str:
+    """Of a reducer or model that a user named, what its positions count from."""
+    if not is_model_file(Path(name)):
+        return BEGINS
+    # Here: what reads models takes its time to load.
+    from discrepancy.model_file import load_model
+
+    model = load_model(name)
+    return "\n".join([BEGINS, *zero_texts(model.reducer, model.steps)])
