@@ -28,12 +28,14 @@ from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
+from discrepancy.prediction.defined_samples import FLOATING, defined_at
 from discrepancy.prediction.orders import named_orders
-from discrepancy.prediction.physical_model import FLOATING, PhysicalModel, defined_at
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import Scale, of_parameter, shown
 from discrepancy.stiffest import too_soft
+from discrepancy.unstated_texts import place_texts
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
@@ -93,7 +95,9 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     runs = [run | {"near_no_torque": floating.get(run["run"], 0)} for run in runs_of(space, predictions)]
     found = outlying(space.records)
     scales = doubts_of(zip(space.records, predictions), campaign)
-    doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *locked_doubts(campaign))]
+    # With effects in the model file positions are found; without, all are the mean.
+    places = place_texts(model, frozenset(), space.base.values)
+    doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *([] if places else locked_doubts(campaign)))] + places
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records)

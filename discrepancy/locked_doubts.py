@@ -12,8 +12,8 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.plausible import thinned
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import fast_noise
-from discrepancy.prediction.physical_model import defined
 from discrepancy.prediction.positions import departures
 from discrepancy.problem import Record, is_unplaced
 from fmu_src.arrays import Floats

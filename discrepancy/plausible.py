@@ -13,8 +13,9 @@ from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from discrepancy.known_factors import KnownFactor, known_factor
 from discrepancy.model_file import ModelFile
+from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.prediction.nuisances import require_known
-from discrepancy.prediction.physical_model import PhysicalModel, defined_at
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault

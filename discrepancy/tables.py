@@ -15,7 +15,8 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
-from discrepancy.prediction.physical_model import PhysicalModel, defined_at
+from discrepancy.prediction.defined_samples import defined_at
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.scales import of_axis, of_estimate, of_signal
 from discrepancy.verdict import Answer

@@ -1,6 +1,7 @@
 """What an answer says of loops of which nobody says where the input was locked."""
 
 import math
+from collections.abc import Mapping
 
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import LOCKED_AT
@@ -15,14 +16,21 @@ from discrepancy.problem import is_unplaced
 
 def without_place(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Conditions of such loops that no place was found for beside what is named; none where that is a position itself."""
-    conditions = dict.fromkeys(record.condition for record in model.records if is_unplaced(record))
-    member = found.fits.members[0] if found.fits.members else None
-    if not conditions or member is None:
-        return list(conditions)
-    if POSITION in map(effect_of, member.candidates):
+    if found.fits.members and POSITION in map(effect_of, found.fits.members[0].candidates):
         return []
-    places = model.unstated_places.taken(named_amplitudes(member), member.fit.values)
-    return [condition for condition in conditions if condition not in places]
+    places = model.unstated_places.taken(*named_by(found))
+    return [condition for condition in unplaced_conditions(model) if condition not in places]
+
+
+def unplaced_conditions(model: PhysicalModel) -> list[str]:
+    """Those of such loops."""
+    return list(dict.fromkeys(record.condition for record in model.records if is_unplaced(record)))
+
+
+def named_by(found: Diagnosis) -> tuple[Effects, Mapping[str, float]]:
+    """Effects as places are found by them, and values: of what is named, else of the model as it is."""
+    member = found.fits.members[0] if found.fits.members else None
+    return (frozenset(), found.fits.space.base.values) if member is None else (named_amplitudes(member), member.fit.values)
 
 
 def named_amplitudes(member: Refit) -> Effects:
@@ -32,25 +40,26 @@ def named_amplitudes(member: Refit) -> Effects:
 
 def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Where they are as measured beside what is named, with the line that states it; else that what is named may be the position."""
-    conditions = dict.fromkeys(record.condition for record in model.records if is_unplaced(record))
-    member = found.fits.members[0] if found.fits.members else None
-    if not conditions or member is None:
-        return []
-    places = model.unstated_places.taken(named_amplitudes(member), member.fit.values)
-    period = model.unstated_places.period
-    told = []
-    for condition, place in places.items():
-        # From where angles count by this fit, as a stated position does.
-        place -= model.locked_places.zero_moved(next(r for r in model.records if r.condition == condition and is_unplaced(r)), member.fit.values)
-        angle, turn = math.degrees(math.remainder(place, period)), math.degrees(period)
-        told.append(
-            f"loops in {condition}: {QUESTION}; beside what is named they are as measured at about {angle:.0f} deg of the input, not as"
-            f" the mean over a turn of the cranks ({turn:.0f} deg, after which they are much alike); state {LOCKED_AT} in the condition if you know it"
-        )
+    told = place_texts(model, *named_by(found))
     left = without_place(model, found)
-    if left:
+    if left and found.fits.members:
         told.append(
             f"loops in {', '.join(left)}: {QUESTION}; they are predicted as the mean over a turn of the cranks: what is named or left in loops may be the"
             f" position; {REMEDY}"
+        )
+    return told
+
+
+def place_texts(model: PhysicalModel, effects: Effects, values: Mapping[str, float]) -> list[str]:
+    """Where such loops are as measured beside the ``effects`` of ``values``, or of the model file itself, with the line that states it."""
+    period, told = model.unstated_places.period, []
+    beside = "what is named" if effects else "the model's effects"
+    for condition, place in model.unstated_places.taken(effects, values).items():
+        # From where angles count by this fit, as a stated position does.
+        place -= model.locked_places.zero_moved(next(r for r in model.records if r.condition == condition and is_unplaced(r)), values)
+        angle, turn = round(math.degrees(math.remainder(place, period))), math.degrees(period)
+        told.append(
+            f"loops in {condition}: {QUESTION}; beside {beside} they are as measured at about {angle} deg of the input, not as the mean over a turn of the"
+            f' cranks ({turn:.0f} deg, after which they are much alike); if that is where it was state {LOCKED_AT} = "{angle} deg" in the condition'
         )
     return told

@@ -10,7 +10,6 @@ import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign
-from discrepancy.closed_loop import uncertain
 from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
@@ -25,6 +24,7 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
 from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
+from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
@@ -36,7 +36,7 @@ from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Ch
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
-from fmu_src.arrays import Floats, Mask
+from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Threads
 
@@ -46,9 +46,6 @@ LAGS = (0.0, 12.0)
 IMPOSSIBLE = 100.0
 # Kept predictions: those of one call, of all its runs that repeat each other.
 MOST_SHOWN = 200
-# Share of the rated torque below which a held output has no defined place.
-FLOATING = 0.01
-
 
 # Orders are those of the curve.
 PREDICTED = {*OBSERVED, ORDERS}
@@ -117,8 +114,12 @@ class PhysicalModel:
         self.locked_waves = LockedWaves(self.records, list(self.zeros), self.wave * abs(self.bench.ratio), self.discs)
         self.unstated_places = UnstatedPlaces(self.records, turn, turn / model.reducer.topology.pins)
         self.search_bench = in_process.rougher.forgetful()
+        # Amplitudes of the file's own effects where these are off.
+        off = {p.variable.name: p.variable.start for effect in every_effect().values() for p in effect.amplitudes()}
+        self.without_own = {name: off[name] for name, value in present.items() if off.get(name, value) != value}
         if zeros is None:
             self.cages.place(self.standing())
+            self.place_unstated(frozenset(), self.standing())
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.
@@ -147,8 +148,14 @@ class PhysicalModel:
         effects = self.cages.effects(every)
         moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
         moved.append(self.locked_waves.place(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)))
-        moved.append(self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects)))
+        moved.append(self.place_unstated(effects, every))
         return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
+
+    def place_unstated(self, effects: Effects, every: Mapping[str, float]) -> bool:
+        """Where inputs were locked of which nobody says it, looked for beside the ``effects`` of the values, else beside those of the model file."""
+        if not (effects or self.without_own):
+            return False
+        return self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects))
 
     def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
         """See ``problem.Placing``: zeros of angles, with the lag of the base model."""
@@ -326,8 +333,9 @@ class PhysicalModel:
         return self.chained(found, record, asked)
 
     def error_with(self, values: Mapping[str, float], effects: Effects, record: Record, which: bool) -> Floats:
-        """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""
-        return self.one(record, values if which else {n: v for n, v in values.items() if n not in effects}, True)
+        """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without; where there are none, with the model file's own or without."""
+        without = {n: v for n, v in values.items() if n not in effects} if effects else {**values, **self.without_own}
+        return self.one(record, values if which else without, True)
 
     @contextmanager
     def locked_as(self, values: Mapping[str, float], fitted: Mapping[str, float]) -> Iterator[None]:
@@ -368,26 +376,6 @@ def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None)
     from discrepancy.prediction.fmu_bench import FmuBench
 
     return FmuBench(model, settings, fmus)
-
-
-def defined(record: Record, campaign: Campaign) -> Record:
-    """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it."""
-    kept = defined_at(record, campaign)
-    if kept.all():
-        return record
-    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
-
-
-def defined_at(record: Record, campaign: Campaign) -> Mask:
-    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque, and not the first ones where
-    nobody can tell how it was begun."""
-    if record.quantity != "hysteresis" or "torque" not in record.axes:
-        return np.ones(len(record.values), bool)
-    torque = np.asarray(record.axes["torque"], float)
-    rated = campaign.rated_torque or float(np.abs(torque).max())
-    kept: Mask = np.abs(torque) > FLOATING * rated
-    kept[: uncertain(torque, record.values)] = False
-    return kept
 
 
 def typical_size(records: list[Record]) -> float:

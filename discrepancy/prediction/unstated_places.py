@@ -4,6 +4,8 @@ A loop at one position departs from the mean over positions by more than the noi
 is another at each position.  With such an effect known from the transmission error the form of the loop tells the position; without, an
 effect of loops alone could hide in it, so that none is looked for (``effects.locked_position`` then says how far a position may be meant).
 
+Effects that a model file has itself are such, too.
+
 A search says which turn of the cranks it is, and about where; how far from there is fitted with the effect, which the position may stand for in part.
 """
 
@@ -79,7 +81,7 @@ class UnstatedPlaces:
 
     def place(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt, error: ErrorWith) -> bool:
         """Looks for the places with these effects if they explain transmission errors; False if that changes nothing."""
-        if not self.loops or not effects or not self.explain(error):
+        if not self.loops or not self.explain(error):
             return False
         before, now, found = with_most(self.found, effects, {}), self.taken(effects, values), {}
         for condition, loop in self.loops.items():

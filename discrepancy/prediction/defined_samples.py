@@ -1,0 +1,33 @@
+"""Which samples of a loop a model can foretell at all."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from discrepancy.campaign.model import Campaign
+from discrepancy.closed_loop import uncertain
+from discrepancy.problem import Record
+from fmu_src.arrays import Mask
+
+# Share of the rated torque below which a held output has no defined place.
+FLOATING = 0.01
+
+
+def defined(record: Record, campaign: Campaign) -> Record:
+    """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it."""
+    kept = defined_at(record, campaign)
+    if kept.all():
+        return record
+    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
+
+
+def defined_at(record: Record, campaign: Campaign) -> Mask:
+    """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque, and not the first ones where
+    nobody can tell how it was begun."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes:
+        return np.ones(len(record.values), bool)
+    torque = np.asarray(record.axes["torque"], float)
+    rated = campaign.rated_torque or float(np.abs(torque).max())
+    kept: Mask = np.abs(torque) > FLOATING * rated
+    kept[: uncertain(torque, record.values)] = False
+    return kept
