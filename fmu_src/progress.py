@@ -4,7 +4,6 @@ The command line listens (``cli.progress``).  What computes says ``with task("eq
 turning`` and ``turning.advance()`` at each step, and need not know who looks.
 """
 
-import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -94,8 +93,9 @@ def duration(seconds: float) -> str:
 
 def between(low: float, high: float) -> str:
     """A range [s] as roughly as it is known: ``2 to 6 min``, ``up to 40 s``."""
-    step, unit, size = (5.0, "s", 1.0) if high < 90.0 else (60.0, "min", 60.0)
-    first, last = (int(step / size * n) for n in (low // step, max(1, math.ceil(high / step))))
+    step, unit = (60.0, "min") if high >= 90.0 else (5.0, "s")
+    size = 1 if unit == "min" else 5
+    first, last = size * round(low / step), size * max(1, round(high / step))
     return f"about {last} {unit}" if first == last else f"{first} to {last} {unit}" if first else f"up to {last} {unit}"
 
 

@@ -14,7 +14,8 @@ WHOLE = "the whole diagnosis"
 # Root mean square of what the base model leaves, over the noise, from which its effect is large.
 LARGE = 3.0
 # What follows a step, of the time from the beginning until the base model was fitted, and of that until effects were screened; beside a large effect or
-# not: as measured on campaigns of 16 files with one large effect (9 to 10 of the first; 1.9 to 3.6, 1.0 to 2.2 and 0.1 of the second) and of 29 small loops.
+# not: as measured on campaigns of 16 files with one large effect (9 to 11 of the first; 1.9 to 3.6, 1.6 to 2.2 and 0.1 of the second) and of the example with
+# 26 small ones (4.5; 0.6, 0.4 and 0.1).
 FITTED = {True: (5.0, 16.0), False: (1.0, 10.0)}
 SCREENED, IN_EARNEST, BESIDE, NAMED = "screened", "in earnest", "beside", "named"
 AFTER = {
