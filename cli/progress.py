@@ -85,5 +85,6 @@ class Lines:
                 task = self.tasks[-1]
                 if task.passed > SOON and task.passed - spoken.get(task, -PAUSE) >= max(PAUSE, GROWTH * task.passed):
                     spoken[task] = task.passed
-                    print(f"rvwear: {task.sentence()}", file=sys.stderr, flush=True)
+                    whole = next((outer.span for outer in self.tasks[:-1] if outer.span), "")
+                    print(f"rvwear: {task.sentence()}{f'; in all {whole} left' if whole else ''}", file=sys.stderr, flush=True)
                 self.changed.wait(0.2)

@@ -1,6 +1,5 @@
 """Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
 
-import math
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
@@ -18,13 +17,13 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
-from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.locked_doubts import locked_doubts
+from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
@@ -44,8 +43,6 @@ from reducers.reducer import Reducer
 CONSPICUOUS = 1.5
 # Of a number's usual size; what a fit that ends at 0 leaves is less.
 ROUNDING = 1e-7
-# Of the input [deg]: nearer to the model's zero a place shows as where it is stated.
-TURNED = 5.0
 
 
 @dataclass(frozen=True)
@@ -101,21 +98,10 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records)
-    doubts += [text for name, zero in model.locked_places.base().items() if (text := zero_text(name, zero * model.bench.ratio))]
+    doubts += zero_texts(model, space, space.base)
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
     return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
-
-
-def zero_text(name: str, turned: float) -> str:
-    """Of a mounting (``angle_zero[1]``) in which curves and stated positions of the input count from one zero, ``turned`` [rad] from the model's;
-    empty where that is near."""
-    degrees = math.degrees(math.remainder(turned, 2.0 * math.pi))
-    if abs(degrees) < TURNED:
-        return ""
-    mounting = name.partition("[")[2].rstrip("]")
-    return (f"where the input was locked is counted from the zero of the transmission errors of mounting {mounting}, found {degrees:.0f} deg of the input"
-            f" from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT} (a diagnosis then looks for the position, too)")  # fmt: skip
 
 
 def floating_of(campaign: Campaign) -> dict[str, int]:

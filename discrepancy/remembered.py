@@ -18,6 +18,7 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.outlook import WHOLE
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -30,8 +31,6 @@ from fmu_src.source_hash import ROOT
 if TYPE_CHECKING:
     from discrepancy.extend import Extension
 
-# What the task of a diagnosis that is computed from its beginning is called.
-WHOLE = "the whole diagnosis"
 Kept = TypeVar("Kept", Answer, Diagnostician)
 MARK = b"rvwear diagnosis 1\n"
 # Larger ones are not kept, and together they take no more than this [bytes].

@@ -21,6 +21,7 @@ from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
+from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
 from discrepancy.opposite_sign import sign_doubts
 from discrepancy.other_places import placed
@@ -162,6 +163,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
+    doubts += zero_texts(model, doctor.space, best.fit if best else doctor.space.base)
     doubts += sign_doubts(effects, found)
     warnings = beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)

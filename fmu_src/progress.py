@@ -32,12 +32,27 @@ class Task:
     begun: float = field(default_factory=time.monotonic)
     # Whether something ended it before its time.
     broken: bool = False
+    # Seconds from its beginning between which it is to end, where that can be foretold.
+    foretold: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         self.name = self.what
 
     def advance(self, steps: int = 1) -> None:
         self.done += steps
+
+    def foretell(self, low: float, high: float) -> None:
+        """From now on it takes between so many seconds."""
+        self.foretold = self.passed + low, self.passed + high
+
+    @property
+    def span(self) -> str:
+        """What is left in words, as it was foretold; empty where it was not, has turned out to be wrong, or agrees with the last time, which says it closer."""
+        if self.foretold is None or self.passed > self.foretold[1]:
+            return ""
+        if self.before is not None and max(self.passed, self.foretold[0]) < self.before < self.foretold[1]:
+            return ""
+        return between(*(max(0.0, end - self.passed) for end in self.foretold))
 
     @property
     def passed(self) -> float:
@@ -63,6 +78,8 @@ class Task:
         count = f": {self.done} of {self.total}" if self.total else ""
         if self.total and self.done >= self.total:
             return f"{self.what}{count}"
+        if self.span:
+            return f"{self.what}{count}, {self.span} left"
         if self.left is None:
             return f"{self.what}{count}" + (f", for {duration(self.passed)} now" if self.passed > SOON else "")
         return f"{self.what}{count}, about {duration(self.left)} left"
@@ -74,6 +91,14 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
+def between(low: float, high: float) -> str:
+    """A range [s] as roughly as it is known: ``2 to 6 min``, ``up to 40 s``."""
+    step, unit = (60.0, "min") if high >= 90.0 else (5.0, "s")
+    size = 1 if unit == "min" else 5
+    first, last = size * round(low / step), size * max(1, round(high / step))
+    return f"about {last} {unit}" if first == last else f"{first} to {last} {unit}" if first else f"up to {last} {unit}"
+
+
 class Listener(Protocol):
     def begin(self, task: Task) -> None: ...
 
@@ -83,6 +108,8 @@ class Listener(Protocol):
 
 
 _listeners: list[Listener] = []
+# Tasks that are being done, the innermost last.
+_running: list[Task] = []
 
 
 @contextmanager
@@ -105,6 +132,7 @@ def task(what: str, total: int | None = None, about: float | None = None) -> Ite
     """Something that may take a while."""
     begun = Task(what, total, about)
     heard = list(_listeners)
+    _running.append(begun)
     for listener in heard:
         listener.begin(begun)
     try:
@@ -113,8 +141,14 @@ def task(what: str, total: int | None = None, about: float | None = None) -> Ite
         begun.broken = True
         raise
     finally:
+        _running.remove(begun)
         for listener in heard:
             listener.end(begun)
+
+
+def running(name: str) -> Task | None:
+    """The innermost task of that name that is being done."""
+    return next((known for known in reversed(list(_running)) if known.name == name), None)
 
 
 def say(text: str) -> None:

@@ -42,6 +42,15 @@ def test_in_a_pipe_the_innermost_task_is_told_if_it_takes_long(monkeypatch, caps
     assert printed.err.splitlines() == ["rvwear: inner: 1 of 4, about 1 s left", "a result on the way"]
 
 
+def test_in_a_pipe_a_step_is_told_with_what_is_left_of_the_whole(monkeypatch, capsys):
+    monkeypatch.setattr(shown, "SOON", 0.05)
+    with told_to(shown.Lines()), task("outer") as whole, task("inner", total=4) as inner:
+        whole.foretell(90.0, 350.0)
+        inner.advance()
+        time.sleep(0.4)
+    assert capsys.readouterr().err.splitlines() == ["rvwear: inner: 1 of 4, about 1 s left; in all 1 to 6 min left"]
+
+
 def test_on_a_terminal_there_are_bars_and_they_go(monkeypatch):
     class Terminal(io.StringIO):
         def isatty(self):

@@ -290,7 +290,7 @@ def test_a_job_tells_the_folder_and_is_found_by_the_next_server(tmp_path):
 
 def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_does(tmp_path, monkeypatch):
     """The whole of a diagnosis had no estimate; one that was stopped gives none."""
-    from discrepancy.remembered import WHOLE
+    from discrepancy.inference.outlook import WHOLE
     from fmu_src.progress import say, task, told_to
     from workbench.work import Teller
 
@@ -317,6 +317,20 @@ def test_a_job_tells_how_long_the_last_one_took_and_names_effects_as_the_page_do
     assert beat["said"] == ["misfit: transmission error, orders; best alone: disc tooth errors (ovality), beside disc tooth errors of entrada_bloqueada"]
     assert told(30.0, stopped=True)["tasks"][0]["before"] == pytest.approx(600.0, abs=2.0)
     assert told(1.0)["tasks"][0]["left"] == pytest.approx(600.0, abs=2.0)
+
+
+def test_a_first_diagnosis_tells_the_folder_between_what_it_ends(tmp_path, monkeypatch):
+    from fmu_src.progress import task, told_to
+    from workbench.work import Teller
+
+    monkeypatch.setattr("fmu_src.durations.cache_folder", lambda name: tmp_path)
+    folder = opened(tmp_path / "b")
+    teller = Teller(folder, "diagnose")
+    with told_to(teller), task("whole") as whole:
+        whole.foretell(80.0, 350.0)
+        teller.write(jobs.RUNNING)
+    assert folder.recall("jobs/diagnose/beat")["tasks"][0]["span"] == "1 to 6 min"
+    teller.close(jobs.DONE)
 
 
 def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypatch):
@@ -475,7 +489,7 @@ def test_of_many_samples_one_turn_is_tried():
     import numpy as np
 
     from discrepancy.problem import Record
-    from workbench.trying import FEW, thinned
+    from workbench.thinned import FEW, thinned
 
     angle = np.linspace(0.0, 20.0 * np.pi, 50_001)
     many = Record("r", "transmission_error", "rad", "c", 1, np.sin(78 * angle), {"angle": angle}, {"direction": 1})

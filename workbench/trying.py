@@ -20,14 +20,14 @@ from discrepancy.scales import of_axis, of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
 from fmu_src.faults import InputFault
+from workbench.beside import Beside
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
 from workbench.own_zero import at_own_zero
+from workbench.thinned import thinned
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
 REACH = 5.0
-# Samples of the curve that follows the hand: more than a screen is wide make no picture better.
-FEW = 1200
 # Models that stay in memory.
 KEPT = 2
 
@@ -38,20 +38,21 @@ class Trial:
     def __init__(self) -> None:
         self.lock = threading.Lock()
         # By folder, model and what they were; the last two, for one may be looked at beside the other.
-        self.models: dict[tuple[str, str, str], PhysicalModel] = {}
+        self.models: dict[tuple[str, str, str], Beside] = {}
         self.asked = 0
 
-    def opened(self, folder: Folder, model: str) -> PhysicalModel:
-        """The model, made anew where folder or model have changed."""
+    def opened(self, folder: Folder, model: str) -> Beside:
+        """The model, made anew where folder or model have changed, with what a diagnosis knows beside effects."""
         key = (str(folder.root), model, folder.stamp(model))
         found = self.models.pop(key, None)
         if found is None:
             campaign = load_campaign(folder.root)
-            few = replace(campaign, records=tuple(thinned(record) for record in campaign.records))
-            found = PhysicalModel(load_model(folder.model({"model": model})), few)
+            thin = replace(campaign, records=tuple(thinned(record) for record in campaign.records))
+            found = Beside(PhysicalModel(load_model(folder.model({"model": model})), thin), campaign)
             while len(self.models) >= KEPT:
                 self.models.pop(next(iter(self.models)))
         self.models[key] = found
+        found.refresh()
         return found
 
     def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
@@ -63,7 +64,7 @@ class Trial:
     def controls(self, folder: Folder, model: str) -> dict[str, Any]:
         """Every effect with its parameters as sliders, and the runs that can be looked at."""
         with self.lock:
-            found = self.opened(folder, model)
+            found = self.opened(folder, model).model
             about = every_effect()
             effects = []
             for candidate in found.candidates:
@@ -92,15 +93,16 @@ class Trial:
             if ticket < self.asked:
                 # The hand has moved on.
                 return {"late": True}, np.zeros((5, 0))
-            found = self.opened(folder, model)
+            beside_it = self.opened(folder, model)
+            found = beside_it.model
             record = run_of(found, run)
             own = checked_values(found, values)
             standing = self.standing(folder, model, found)
             base = own_curve(found, record, standing)
-            tried = own_curve(found, record, standing | own, roughly) if own else base
+            tried = own_curve(found, record, standing | beside_it.calibrated(own) | own, roughly) if own else base
             other = base
             if beside and beside != model:
-                second = self.opened(folder, beside)
+                second = self.opened(folder, beside).model
                 other = own_curve(second, run_of(second, run), self.standing(folder, beside, second))
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
@@ -116,16 +118,18 @@ class Trial:
             words = {
                 "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
                 "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
-                "aside": list(record.far_off),
+                "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
             }  # fmt: skip
             return words, np.array([x, *(factor * curve for curve in curves)])
 
     def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
         """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition."""
         with self.lock:
-            found = self.opened(folder, model)
+            beside = self.opened(folder, model)
+            found = beside.model
             own = checked_values(found, values)
             standing = self.standing(folder, model, found)
+            calibrated = standing | beside.calibrated(own)
             cells: dict[str, list[tuple[float, float, float]]] = {}
             units: dict[str, str] = {}
             seen = set()
@@ -134,7 +138,7 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                base, tried = own_curve(found, record, standing, True), own_curve(found, record, standing | own, True)
+                base, tried = own_curve(found, record, standing, True), own_curve(found, record, calibrated | own, True)
                 units[key[0]] = record.unit
                 cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
         rows = []
@@ -157,20 +161,6 @@ def run_of(model: PhysicalModel, run: str) -> Record:
     if found is None:
         raise InputFault(f"{run}: there is no such run, or no prediction of it")
     return found
-
-
-def thinned(record: Record) -> Record:
-    """A run with as many samples as a screen shows: of an angle the first turn alone, for a line through few samples of many waves shows none of them."""
-    values = np.asarray(record.values)
-    kept = np.arange(len(values))
-    if "angle" in record.axes and len(values) > FEW:
-        angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
-        kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
-    kept = kept[:: max(1, math.ceil(len(kept) / FEW))]
-    if len(kept) == len(values):
-        return record
-    axes = {k: np.asarray(v)[kept] if np.size(v) == len(values) else v for k, v in record.axes.items()}
-    return replace(record, values=values[kept], axes=axes)
 
 
 def error_of(record: Record, predicted: Floats) -> float:

@@ -65,8 +65,8 @@ class Teller:
                     signal.raise_signal(signal.SIGINT)
 
     def write(self, state: str, fault: str = "") -> None:
-        tasks = [{"what": in_words(t.what), "done": t.done, "total": t.total, "left": t.left, "before": t.before, "sentence": in_words(t.sentence())}
-                 for t in self.tasks[-MOST_TASKS:]]  # fmt: skip
+        tasks = [{"what": in_words(t.what), "done": t.done, "total": t.total, "left": t.left, "before": t.before, "span": t.span,
+                  "sentence": in_words(t.sentence())} for t in self.tasks[-MOST_TASKS:]]  # fmt: skip
         beat = {"state": state, "at": time.time(), "seconds": time.monotonic() - self.begun, "tasks": tasks, "said": self.said, "fault": fault,
                 "stamp": self.stamp}  # fmt: skip
         try:

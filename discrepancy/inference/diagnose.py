@@ -13,6 +13,7 @@ from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.outlook import NAMED, Outlook
 from discrepancy.inference.refit.beside_base import base_parameters
 from discrepancy.inference.refit.beside_base import widening as widening_by_base
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
@@ -70,6 +71,7 @@ class Diagnostician:
         self.doing = "fitting the base model"
         self.refits = Refits(self.space, self.candidates)
         self.judgement = Judgement(self.space, orders, settings.leftover_level)
+        self.outlook = Outlook()
 
     def __getstate__(self) -> dict[str, Any]:
         """Without the large tables of its tests, which are made anew where they are asked for."""
@@ -105,7 +107,7 @@ class Diagnostician:
 
     @property
     def selection(self) -> Selection:
-        return Selection(self.chosen, self.columns, self.screening, self.refits, self.judgement, self.settings)
+        return Selection(self.chosen, self.columns, self.screening, self.refits, self.judgement, self.settings, self.outlook)
 
     def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], Refit | None]:
         """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together."""
@@ -136,6 +138,7 @@ class Diagnostician:
         """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
+        self.outlook.fitted(self.space.base)
         self.say_place()
         self.doing = "screening"
         rivals, start = self.calibrated(first)
@@ -144,6 +147,7 @@ class Diagnostician:
         p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
         p_screen = min(p_screen, p_first)
         self.say_scores()
+        self.outlook.screened()
         if settings.sure_level <= p_screen:
             p_screen = min(p_screen, self.p_refitted())
         p_local = min((g.p for g in local.groups), default=1.0)
@@ -163,6 +167,8 @@ class Diagnostician:
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         self.doing = f"looking for what could stand in place of {final.name}"
+        if len(final.candidates) == 1:
+            self.outlook.after(NAMED)
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = self.least_dof(final)

@@ -9,6 +9,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
+from discrepancy.inference.outlook import BESIDE, IN_EARNEST, Outlook
 from discrepancy.inference.refit.confusable import (
     FORM,
     confusable_set,
@@ -74,9 +75,10 @@ def ranked(trials: Sequence[Refit]) -> list[Refit]:
 class Selection:
     """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
 
-    def __init__(self, candidates: Sequence[Candidate], columns: Columns, screening: Screen, refits: Refits, judgement: Judgement, settings: Settings):
+    def __init__(self, candidates: Sequence[Candidate], columns: Columns, screening: Screen, refits: Refits, judgement: Judgement, settings: Settings,
+                 outlook: Outlook):  # fmt: skip
         self.candidates, self.columns, self.screening = candidates, columns, screening
-        self.refits, self.judgement, self.settings = refits, judgement, settings
+        self.refits, self.judgement, self.settings, self.outlook = refits, judgement, settings, outlook
         self.scores = {s.name: s for s in screening.scores}
         self.space: Workspace = refits.space
 
@@ -99,6 +101,7 @@ class Selection:
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
         widened = partial(self.refits.widened, least=self.near(fits[0]))
         fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
@@ -172,6 +175,7 @@ class Selection:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
+            self.outlook.after(BESIDE)
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
             challenger = ranked(trials)[0]

@@ -30,10 +30,6 @@ class LockedPlaces(ByEffects):
     def now(self, values: Mapping[str, float]) -> dict[str, float]:
         return {name: values[name] for name in self.names}
 
-    def base(self) -> dict[str, float]:
-        """The zeros from which places count with no effect."""
-        return {name: self.taken(frozenset())[name] for name in self.names}
-
     def zero_moved(self, record: Record, values: Mapping[str, float]) -> float:
         """How far the zero of a record's mounting is from the bench's own by ``values`` [rad of the input]."""
         name = angle_zero(record)

@@ -96,9 +96,10 @@ export function show(root, context) {
     );
   }
 
-  // How long it takes in all, of one that began at the beginning: no two are alike, so it goes by the last.
+  // How long it takes in all, of one that began at the beginning: as its first steps foretell it, else as the last one took.
   function whole(job) {
     const task = job.tasks.find((t) => t.what === WHOLE[0]);
+    if (task?.span) return h("p", { class: "quiet", id: "whole" }, `${task.span} left in all, as its first steps tell; longer where several effects are missing.`);
     if (!task?.before) return null;
     const last = `the last one took ${duration(task.before)}`;
     return h("p", { class: "quiet", id: "whole" }, task.left === null ? `Longer than the last one by now: ${last}.` : `About ${duration(task.left)} left in all: ${last}.`);

@@ -284,6 +284,7 @@ export function show(root, context) {
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",
       t.free ? " · the zero is free: drawn at the fitted one" : "",
+      t.placed ? h("span", { id: "placed" }, ` · ${t.placed}`) : "",
     );
   }
 
@@ -308,7 +309,7 @@ export function show(root, context) {
             rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
             [1, 2, 3],
           ),
-          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact. Transmission errors stand from the zero and with the lag that suit each curve; where an input was locked, and whatever else is calibrated, stays as the base model has it, so that adding an effect may do better."),
+          h("p", { class: "quiet small" }, "All of them first looks: changes and errors after are right within some parts in a hundred. The number below the chart is exact. Transmission errors stand from the zero and with the lag that suit each curve; where an input was locked, and whatever else is calibrated, stays as the base model has it (beside what a diagnosis names, as that found it), so that adding an effect may do better."),
         ),
       );
     } catch (fault) {

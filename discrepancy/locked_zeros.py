@@ -1,0 +1,48 @@
+"""Where inputs were locked, counted from a zero of angles that a fit has found: what is said of it beside the base model and beside what is named."""
+
+import math
+
+import numpy as np
+
+from discrepancy.held_names import LOCKED_AT
+from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.prediction.conditions import angle_zero
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import ERROR, ORDERS
+
+# Of the input [deg]: nearer to the model's zero a place shows as where it is stated.
+TURNED = 5.0
+# Root mean square, over the noise, of what a fit leaves of transmission errors: from more its zero may be another once the misfit is explained.
+UNFIT = 3.0
+
+
+def zero_texts(model: PhysicalModel, space: Workspace, fit: Fit) -> list[str]:
+    """A sentence for each mounting in which curves and stated positions of the input count from one zero that ``fit`` has far from the model's."""
+    effects = model.cages.effects(model.standing() | fit.values)
+    found = []
+    for name in model.locked_places.names:
+        # Loops tell in which wave of the pattern; the fit tells where in it.
+        turned = fit.values[name] * model.bench.ratio + model.locked_waves.taken(effects).get(name, 0) * model.locked_waves.wave
+        found.append(zero_text(name, turned, left_of(space, fit, name) > UNFIT))
+    return [text for text in found if text]
+
+
+def left_of(space: Workspace, fit: Fit, name: str) -> float:
+    """Root mean square, over the noise, of what ``fit`` leaves of the transmission errors that tell the zero ``name``."""
+    rows = [fit.residual[rows] for i, rows in space.rows.items() if space.records[i].quantity in (ERROR, ORDERS) and angle_zero(space.records[i]) == name]
+    return float(np.sqrt(np.mean(np.concatenate(rows) ** 2))) if rows else 0.0
+
+
+def zero_text(name: str, turned: float, unfit: bool) -> str:
+    """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's; empty where that is near.  One that is ``unfit`` has no number: a
+    large effect hides the pattern, and where that is found then, near or far, says nothing."""
+    counted = f"where the input was locked is counted from the zero of the transmission errors of mounting {name.partition('[')[2].rstrip(']')}"
+    if unfit:
+        return (f"{counted}; that zero is of a model which does not fit yet (they are off by more than {UNFIT:g} times their noise) and may move when what is"
+                " missing is found: change nothing for it before")  # fmt: skip
+    degrees = math.degrees(math.remainder(turned, 2.0 * math.pi))
+    if abs(degrees) < TURNED:
+        return ""
+    return (f"{counted}, found {degrees:.0f} deg of the input from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT} (a diagnosis"
+            " then looks for the position, too)")  # fmt: skip

@@ -1,0 +1,62 @@
+"""Try: a large effect stands where a diagnosis of the same measurements has found zero, lag and cages; without one the page says that it does not."""
+
+import numpy as np
+import pytest
+from zero_campaign import HIDDEN, NAME, REDUCER, written
+
+from discrepancy.campaign.load import load_campaign
+from discrepancy.inference.verdict import Settings
+from discrepancy.model_file import load_model
+from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import Record
+from discrepancy.remembered import place_of, write
+from discrepancy.verdict import diagnose
+from workbench.beside import fewer
+from workbench.folder import Folder
+from workbench.thinned import thinned
+from workbench.trying import Trial
+
+WITHOUT, BESIDE = "zero and phases are those of the model without what is tried", "zero and phases are those that the diagnosis found beside"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return Folder(written(tmp_path_factory.mktemp("try"), loop=True))
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setattr("discrepancy.remembered.cache_folder", lambda name: tmp_path)
+
+
+def tried(trial, folder, run, values):
+    return trial.curve(folder, REDUCER, run, values, 1)[0]
+
+
+def test_a_large_effect_stands_where_the_diagnosis_found_it(folder, cache):
+    """Discs off centre as they are made the curve look worse than it was without them: it stood at the zero of the base model."""
+    trial = Trial()
+    before = {run: tried(trial, folder, run, HIDDEN) for run in ("at_160_1", "loop")}
+    assert all(told["placed"].startswith(WITHOUT) for told in before.values())
+    assert not tried(trial, folder, "loop", {})["placed"]
+    file, campaign = load_model(REDUCER), load_campaign(folder.root)
+    model = PhysicalModel(file, campaign)
+    [other] = [p for c in model.candidates if c.name == "needle_clearance" for p in c.amplitudes]
+    model.candidates = tuple(c for c in model.candidates if c.name == NAME)
+    write(place_of(file, campaign, Settings()), diagnose(file, campaign, model=model))
+    # Of what is tried the diagnosis knows nothing: as before.
+    assert tried(trial, folder, "at_160_1", {other.name: other.scale})["placed"].startswith(WITHOUT)
+    for run, told in before.items():
+        found = tried(trial, folder, run, HIDDEN)
+        assert found["placed"].startswith(BESIDE) and found["rms"][0] == told["rms"][0]
+        assert found["rms"][1] < 0.2 * told["rms"][1]
+    # Noise is 0.05 arcsec.
+    assert tried(trial, folder, "at_160_1", HIDDEN)["rms"][1] < 0.06
+
+
+def test_what_cages_add_is_thinned_as_the_run_is(folder):
+    campaign, count = load_campaign(folder.root), 6000
+    record = Record("r", "transmission_error", "rad", "c", 1, np.zeros(count), {"angle": np.linspace(0.0, 12.0, count)}, {})
+    ripple = np.arange(float(count))
+    few = fewer(ripple, record, campaign)
+    np.testing.assert_allclose(thinned(record).axes["angle"], record.axes["angle"][few.astype(int)])

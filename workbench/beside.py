@@ -1,0 +1,114 @@
+"""Try: where angles count from, how far outputs lag and where roller cages stood beside an effect, as a diagnosis of the same measurements has found them.
+
+A large effect hides the pattern that tells the zero of angles: drawn at the base model's it looks wrong, however right it is.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from discrepancy import remembered
+from discrepancy.campaign.model import Campaign
+from discrepancy.inference.verdict import Settings
+from discrepancy.page import amounts
+from discrepancy.prediction.by_effects import Effects, Found
+from discrepancy.prediction.conditions import places_of_zero
+from discrepancy.prediction.physical_model import PhysicalModel, defined_at
+from discrepancy.problem import Record
+from discrepancy.verdict import Answer
+from fmu_src.arrays import Floats
+from workbench.thinned import kept_of, thinned
+
+
+@dataclass(frozen=True)
+class Known:
+    """A fit of what a diagnosis names: the parameters of its effects, how they are called, and all values (SI)."""
+
+    own: frozenset[str]
+    title: str
+    values: dict[str, float]
+
+
+@dataclass
+class Beside:
+    """What is known beside effects by the diagnosis of a ``campaign``, for a ``model`` of its runs as they are ``thinned``; read anew when the diagnosis
+    is another one."""
+
+    model: PhysicalModel
+    campaign: Campaign
+    known: list[Known] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.place = remembered.place_of(self.model.file, self.campaign, Settings())
+        self.seen = 0
+
+    def refresh(self) -> None:
+        """Takes what a diagnosis has found since, if there was one."""
+        if self.changed() == self.seen:
+            return
+        answer = remembered.remembered(self.model.file, self.campaign)
+        self.known = [] if answer is None else known_of(answer)
+        if answer is not None:
+            take_over(self.model, answer, self.campaign)
+        self.seen = self.changed()
+
+    def changed(self) -> int:
+        """When the diagnosis was written; 0 without one."""
+        return self.place.stat().st_mtime_ns if self.place.is_file() else 0
+
+    def fit(self, tried: Iterable[str]) -> Known | None:
+        """The fit that names most of the parameters that are tried, if one names any."""
+        names = set(tried)
+        best = max(self.known, key=lambda fit: len(names & fit.own), default=None)
+        return best if best and names & best.own else None
+
+    def calibrated(self, tried: Iterable[str]) -> dict[str, float]:
+        """What is calibrated beside what is tried, where that is known."""
+        fit = self.fit(tried)
+        return {p.name: fit.values[p.name] for p in self.model.nuisances if p.name in fit.values} if fit else {}
+
+    def words(self, record: Record, tried: Sequence[str]) -> str:
+        """One line below the curve; empty where nothing is tried, or nothing of a record hangs on an angle's zero or a cage."""
+        if not tried or not (self.counts(record) or self.model.cages.ripple(record, {}) is not None):
+            return ""
+        fit = self.fit(tried)
+        if fit is None:
+            return "zero and phases are those of the model without what is tried: a large effect may fit better at others, which a diagnosis finds"
+        return f"zero and phases are those that the diagnosis found beside {fit.title}"
+
+    def counts(self, record: Record) -> bool:
+        """Whether a curve, or the place of a loop, counts from a zero that is found."""
+        free = {p.name for p in self.model.nuisances} & set(places_of_zero(record))
+        return bool(free) and ("angle" in record.axes or self.model.locked_waves.counts(record))
+
+
+def known_of(answer: Answer) -> list[Known]:
+    """The fits of what is named."""
+    return [Known(frozenset(p.name for p in fit.own), " + ".join(amounts.effect_title(c.name) for c in fit.candidates), fit.fit.values)
+            for fit in answer.diagnosis.fits.members]  # fmt: skip
+
+
+def take_over(model: PhysicalModel, answer: Answer, campaign: Campaign) -> None:
+    """What ``answer`` has placed beside effects, for a model of the same runs as they are thinned; without effects that has placed all itself."""
+    there = answer.model
+    take(model.locked_places.found, there.locked_places.found)
+    take(model.lags.found, there.lags.found)
+    take(model.locked_waves.found, there.locked_waves.found)
+    take(model.unstated_places.found, there.unstated_places.found)
+    whole = {record.name: record for record in campaign.records}
+    ripples = {effects: {name: fewer(ripple, whole[name], campaign) for name, ripple in placed.items()} for effects, placed in there.cages.ripples.items()}
+    take(model.cages.ripples, ripples)
+
+
+def take(mine: dict[Effects, Found], found: Mapping[Effects, Found]) -> None:
+    """What was found with effects."""
+    mine.update({effects: placed for effects, placed in found.items() if effects})
+
+
+def fewer(ripple: Floats, record: Record, campaign: Campaign) -> Floats:
+    """What cages add at the samples of a run that can be foretold, at those of the run as it is thinned."""
+    every = np.zeros(len(record.values))
+    every[defined_at(record, campaign)] = ripple
+    few: Floats = every[kept_of(record)][defined_at(thinned(record), campaign)]
+    return few
