@@ -2,11 +2,10 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 from fmu_src.reading import quoted
-from reducers.reducer import Reducer, is_model_file
+from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
 
 BEGINS = "positions of the input count from where the model begins: an eccentric of disc 1 points at crank 1"
@@ -31,14 +30,3 @@ def zero_texts(reducer: Reducer, steps: Iterable[Mapping[str, Any]]) -> list[str
         f" --locked-at is the campaign's position of the input {'-' if zero < 0.0 else '+'} {math.degrees(abs(zero)) * ratio:.1f} deg"
         for (campaign, mounting), zero in zeros_of(steps).items()
     ]
-
-
-def counted_from(name: str | Path) -> str:
-    """Of a reducer or model that a user named, what its positions count from."""
-    if not is_model_file(Path(name)):
-        return BEGINS
-    # Here: what reads models takes its time to load.
-    from discrepancy.model_file import load_model
-
-    model = load_model(name)
-    return "\n".join([BEGINS, *zero_texts(model.reducer, model.steps)])

@@ -5,10 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from zero_campaign import REDUCER, written
 
+from discrepancy.campaign.load import load_campaign
 from discrepancy.held_names import LOCKED_AT
+from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverTorque
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import UnstatedPlaces, fewer_samples, locked
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
@@ -106,7 +110,6 @@ def test_a_mean_over_positions_has_no_place(bench):
 def test_nothing_is_looked_for_beside_what_explains_no_transmission_error(bench):
     _, places = places_of(bench, 0.0)
     assert not places.place(OVAL, {}, predicted(bench), lambda record, which: np.zeros(len(record.values)))
-    assert not places.place(frozenset(), {}, predicted(bench), explained)
 
 
 def test_what_is_stated_is_not_looked_for(bench):
@@ -120,3 +123,21 @@ def test_the_samples_that_are_looked_at_keep_where_torque_turns():
     few = fewer_samples(Record("l", "hysteresis", "rad", "c", 1, np.arange(997.0), {"torque": torque}, {}))
     assert len(few.values) < 60 and few.axes["torque"].max() == torque.max() and few.axes["torque"].min() == torque.min()
     assert np.array_equal(torque[few.values.astype(int)], few.axes["torque"])
+
+
+def test_effects_of_a_model_file_itself_tell_the_place(tmp_path):
+    """What ``extend`` wrote is held against the loops as the diagnosis was."""
+    folder = written(tmp_path, loop=True)
+    stated = (folder / "campaign.toml").read_text()
+    (folder / "campaign.toml").write_text(stated.replace('locked_at = "0 deg"', ""))
+    extended = tmp_path / "better.toml"
+    extended.write_text(f'[model]\nname = "better"\nreducer = "{REDUCER}"\n\n[effects.disc_tooth_errors]\nrunout = "6 um"\nrunout_angle = "0.4 rad"\n')
+    campaign = load_campaign(folder)
+    plain, better = (PhysicalModel(load_model(name), campaign) for name in (REDUCER, extended))
+    assert plain.unstated_places.taken(frozenset(), {}) == {}
+    [place] = better.unstated_places.taken(frozenset(), {}).values()
+    # It counts from the encoder's 0; discs change places with half a turn of the cranks.
+    assert abs(math.remainder(place, PERIOD / 2.0)) < math.radians(8.0)
+    [loop] = [r for r in better.records if r.quantity == "hysteresis"]
+    [found] = better.predict(better.standing(), [better.records.index(loop)])
+    assert np.std(found - loop.values) < 1.0 * ARCSEC

@@ -14,7 +14,8 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.page import amounts
 from discrepancy.prediction.by_effects import Effects, Found
 from discrepancy.prediction.conditions import places_of_zero
-from discrepancy.prediction.physical_model import PhysicalModel, defined_at
+from discrepancy.prediction.defined_samples import defined_at
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats

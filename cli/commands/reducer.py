@@ -1,6 +1,7 @@
 """``rvwear solve``, ``hysteresis`` and ``modes``: one reducer as it stands."""
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.exporting import add_exports, check_exports, write_exports
@@ -70,7 +71,6 @@ def hysteresis(options: argparse.Namespace) -> int:
     import math
 
     from cli import screen
-    from discrepancy.counted_from import counted_from
     from studies.effects_set import effects_set
     from studies.figure_units import HELD, WIDTHS
     from studies.hysteresis import hysteresis as measure
@@ -95,6 +95,18 @@ def hysteresis(options: argparse.Namespace) -> int:
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
+
+
+def counted_from(name: str) -> str:
+    """Of a reducer or model that a user named, what its positions count from."""
+    from discrepancy.counted_from import BEGINS, zero_texts
+    from discrepancy.model_file import load_model
+    from reducers.reducer import is_model_file
+
+    if not is_model_file(Path(name)):
+        return BEGINS
+    model = load_model(name)
+    return "\n".join([BEGINS, *zero_texts(model.reducer, model.steps)])
 
 
 def say_rigid(words: str) -> None:
