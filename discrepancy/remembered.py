@@ -9,6 +9,7 @@ import hashlib
 import os
 import pickle
 import tomllib
+from dataclasses import replace
 from datetime import datetime
 from functools import cache
 from pathlib import Path
@@ -98,7 +99,7 @@ def interrupted(file: ModelFile, campaign: Campaign, settings: Settings = Settin
     if doctor is not None:
         doctor.space.threads.jobs = jobs
         if isinstance(doctor.model, PhysicalModel):
-            doctor.model.campaign = campaign
+            doctor.model.file, doctor.model.campaign = file, campaign
     return doctor
 
 
@@ -107,8 +108,8 @@ def remembered(file: ModelFile, campaign: Campaign, settings: Settings = Setting
     answer = read(place_of(file, campaign, settings), Answer)
     if answer is not None:
         answer.model.threads.jobs = jobs
-        # The same was measured; what it is called, and where it lies, may be another.
-        answer.model.campaign = campaign
+        # The same was measured of the same; what they are called, and where they lie, may be another.
+        answer.model.file, answer.model.campaign = file, campaign
     return answer
 
 
@@ -119,7 +120,7 @@ def place_of(file: ModelFile, campaign: Campaign, settings: Settings) -> Path:
 def key(file: ModelFile, campaign: Campaign, settings: Settings) -> str:
     """File name of what is computed from these by this program."""
     found = hashlib.sha256()
-    for part in (program(), repr(sorted(every_effect())), repr(file), stated(campaign), repr(campaign.nuisances), repr(settings)):
+    for part in (program(), repr(sorted(every_effect())), modelled(file), stated(campaign), repr(campaign.nuisances), repr(settings)):
         found.update(hashlib.sha256(part.encode()).digest())
     for record in campaign.records:
         plain = {k: v for k, v in record.__dict__.items() if k not in ("values", "axes")}
@@ -127,6 +128,11 @@ def key(file: ModelFile, campaign: Campaign, settings: Settings) -> str:
         for name, column in [("values", record.values), *sorted(record.axes.items())]:
             found.update(name.encode() + np.ascontiguousarray(column).tobytes())
     return found.hexdigest()[:40]
+
+
+def modelled(file: ModelFile) -> str:
+    """What a model file says of the reducer: neither where it lies, nor what was tried in vain."""
+    return repr(replace(file, path=None, steps=tuple(step for step in file.steps if step.get("kept", True))))
 
 
 def stated(campaign: Campaign) -> str:

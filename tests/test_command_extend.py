@@ -82,6 +82,12 @@ def test_the_line_after_a_diagnosis_is_not_refused(verdict, names, off, asked):
     assert (again.effect, again.output, again.data, again.campaign) == (asked, "better.toml", "d", "my bench")
 
 
+def test_a_position_is_said_to_belong_to_the_bench():
+    given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
+    assert "state locked_at in the campaign's condition instead" in commands.line_after(given, answer_of(INCOMPLETE, ["locked_position"]))
+    assert "locked_at" not in commands.line_after(given, answer_of(INCOMPLETE, ["drag"]))
+
+
 def test_where_nothing_can_be_added_no_line_says_so():
     given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
     assert commands.line_after(given, answer_of(BASE_OFF, [], off=[("declared", None)])) == ""

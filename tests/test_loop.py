@@ -245,11 +245,15 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     moved = replace(wide, name="moved", text='# a copy\n[campaign]\nname = "moved"\ndata = "../bench"\n')
     assert remembered.remembered(file, moved).as_json()["campaign"] == "moved"
     assert remembered.remembered(file, replace(moved, text=moved.text + 'orders = { motor = [3] }\n')) is None
+    # So it is where the model file lies elsewhere, and where something was tried in vain: not where it was kept.
+    tried, kept = (replace(file, steps=(*file.steps, {"effects": ["drag"], "kept": kept})) for kept in (False, True))
+    assert remembered.remembered(replace(tried, path=tmp_path / "elsewhere.toml"), wide).model.file.path == tmp_path / "elsewhere.toml"
+    assert remembered.remembered(kept, wide) is None
     # Other measurements, and a file that is not whole, are no answer.
     other = replace(wide, records=(*wide.records[:-1], replace(wide.records[-1], values=wide.records[-1].values * 1.001)))
     assert remembered.remembered(file, other) is None
-    kept = next(tmp_path.iterdir())
-    kept.write_bytes(kept.read_bytes()[:-1] + b"x")
+    whole = next(tmp_path.iterdir())
+    whole.write_bytes(whole.read_bytes()[:-1] + b"x")
     assert remembered.remembered(file, wide) is None
 
 
