@@ -92,12 +92,20 @@ def run_new(options: argparse.Namespace) -> int:
         moved = {"sensitivity": [vars(one) | {"share": one.share} for one in found]} if options.sensitivity else {}
         json_text({"file": str(target)} | as_json(completion) | {"tested": None if test is None else vars(test)} | compared | moved)
     else:
-        show(completion, name, target, test)
+        show(completion, name, target, test, command_of(options, given, target))
         if options.against:
             show_against(rows, name, options.against)
         if options.sensitivity:
             show_influences(completion, found)
     return 0
+
+
+def command_of(options: argparse.Namespace, given: "Given", target: Path) -> list[str]:
+    """The command as it was given, but for what it asked for besides."""
+    from reducers.completion.command import words_of
+
+    stiff = ["--stiffness", f"{options.stiffness:g}"] if options.stiffness is not None else []
+    return [*words_of(given), *stiff, *(["--name", options.name] if options.name else []), "--output", str(target)]
 
 
 def tested_of(completion: "Completion", reducer: "Reducer") -> "Tested | None":

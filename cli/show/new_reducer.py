@@ -1,6 +1,7 @@
 """A completed reducer on the screen."""
 
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from textwrap import shorten
 
@@ -18,8 +19,8 @@ RULE = 19
 SAME = 0.02
 
 
-def show(completion: Completion, name: str, file: Path, tested: Tested | None) -> None:
-    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it."""
+def show(completion: Completion, name: str, file: Path, tested: Tested | None, command: Sequence[str]) -> None:
+    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it; ``command`` made it."""
     table = dense(f"{name}: completed by design rules")
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
@@ -41,6 +42,8 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None) -
     )
     if tested is not None:
         console().print(in_words(tested, completion))
+        if tested.gap is not None and not is_met(tested, completion):
+            print(f"  {shlex.join([*command, '--known', f'{GAP}={tested.gap:g}um', '--overwrite'])}")
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 
@@ -67,12 +70,18 @@ def in_words(tested: Tested, completion: Completion) -> str:
     """What the stiffness test reads, and of a lost motion that is not the catalogue's where it comes from and what would make it that."""
     told, gap = completion.given.lost_motion, completion.numbers[GAP]
     found = f"the stiffness test reads {tested.stiffness:.4g} N.m/arcmin and a lost motion of {tested.lost_motion:.3g} arcmin (the catalogue's: {told:g})"
-    if gap.is_given or abs(tested.lost_motion - told) <= SAME * told:
+    if is_met(tested, completion):
         return found
     found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
     if tested.gap is None:
         return found + f"without a gap it is {tested.least:.3g} arcmin, --known bearing.clearance=... sets the clearance"
     return found + f"--known {GAP}={tested.gap:g}um makes it {told:g} arcmin"
+
+
+def is_met(tested: Tested, completion: Completion) -> bool:
+    """Whether lost motion is the catalogue's, or is what a gap makes it that was given."""
+    told = completion.given.lost_motion
+    return completion.numbers[GAP].is_given or abs(tested.lost_motion - told) <= SAME * told
 
 
 def show_influences(completion: Completion, found: list[Influence]) -> None:
