@@ -4,7 +4,6 @@ import json
 import math
 import re
 import shlex
-import shlex
 
 import numpy as np
 import pytest
