@@ -1,6 +1,6 @@
 """Calibrated numbers that are far from what they can be: the fit took them, which makes them no truth."""
 
-from collections.abc import Container, Sequence
+from collections.abc import Callable, Container, Sequence
 
 import numpy as np
 
@@ -20,12 +20,16 @@ PLAUSIBLE_LAG, CLEAR_LAG = (0.3, 3.0), (0.5, 2.0)
 OF_INPUT = 'angle_of = "input" in [quantities.transmission_error] of campaign.toml'
 # So many standard deviations from what is known beforehand, and from where a number is doubted.
 FAR, SURELY = 3.0, 2.0
+# Chi-square from which it is known whose an angle was: what a fit has bent to the wrong one counts against the right one.
+SURELY_WHOSE = 25.0
 
 
-def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = (), records: Sequence[Record] = ()) -> list[str]:
+def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = (), records: Sequence[Record] = (),
+                      as_input: Callable[[], float] = lambda: 0.0) -> list[str]:  # fmt: skip
     """One sentence for each doubtful number that was calibrated: at a bound, far from what is known, or a lag that no such reducer has.
 
-    ``effects`` are the parameters of the fit that are effects', which are judged elsewhere; ``records`` the campaign's, whose loads a lag rests on.
+    ``effects`` are the parameters of the fit that are effects', which are judged elsewhere; ``records`` the campaign's, whose loads a lag rests on;
+    ``as_input`` says by how much chi-square their angle is better that of the input.
     """
     # A misfit makes numbers less certain than the noise alone does.
     scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
@@ -39,7 +43,7 @@ def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str]
         if parameter.name == LAG_SHARE:
             # At its bound it is 0 but for what a solver leaves.
             told = f"calibrated {LAG_SHARE} = {readable(round(value, 4))}"
-            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)), loads_of(records))]
+            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)), loads_of(records), as_input)]
         elif parameter.prior and abs(value - parameter.off) > FAR * parameter.prior:
             times = abs(value - parameter.off) / parameter.prior
             found.append(f"{told} lies {times:.1f} standard deviations from {scale.text(parameter.off, 3)}, which was known before: something else is in it")
@@ -63,15 +67,22 @@ def loads_of(records: Sequence[Record]) -> list[float | None]:
     return sorted(most, key=lambda load: -1.0 if load is None else load)
 
 
-def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = ()) -> list[str]:
-    """What is said against a share of the lag known to ``deviation`` from runs at ``loads`` [N.m]; 1 is the model's own."""
+def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (), as_input: Callable[[], float] = lambda: 0.0) -> list[str]:
+    """What is said against a share of the lag known to ``deviation`` from runs at ``loads`` [N.m]; 1 is the model's own; ``as_input`` as above."""
     low, high = PLAUSIBLE_LAG
     if low <= value <= high:
         return []
     if value < CLEAR_LAG[0] - SURELY * deviation:
-        return ['(the model\'s own is 1): the angle is taken for that of the output (angle_of = "output"), which then hardly lags: either it was the'
-                f" input's over the ratio after all (state {OF_INPUT} if it was, and diagnose again: places and directions of what is found may move), or the"
-                " encoder was set to 0 under the load of each run"]  # fmt: skip
+        start = '(the model\'s own is 1): the angle is taken for that of the output (angle_of = "output"), which then hardly lags: '
+        gained = as_input()
+        if gained > SURELY_WHOSE:
+            return [f"{start}it was the input's over the ratio, which explains the errors better by {gained:.3g} in chi-square; state {OF_INPUT} and diagnose"
+                    " again: places and directions of what is found will move"]  # fmt: skip
+        if gained < -SURELY_WHOSE:
+            return [f"{start}the encoder was set to 0 under the load of each run (it is no angle of the input, which explains the errors worse by"
+                    f" {-gained:.3g} in chi-square)"]  # fmt: skip
+        return [f"{start}either it was the input's over the ratio after all (state {OF_INPUT} if it was, and diagnose again: places and directions of what is"
+                " found may move), or the encoder was set to 0 under the load of each run"]  # fmt: skip
     if value > CLEAR_LAG[1] + SURELY * deviation:
         return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
                 " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip

@@ -7,6 +7,7 @@ centre, or oval).  Here they are put together under the effect's name.
 import time
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,7 @@ from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
 from discrepancy.unstated_texts import unstated_texts
 from discrepancy.waves import waves_of
+from discrepancy.whose_angle import gained_as_input
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
 
@@ -158,7 +160,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
             laws = recover(space, fit, sorted(touched) or None, told_in(model))
     # Beside what is named a number may be what it should be.
     own = {p.name for p in best.own} if best else ()
-    doubts = calibrated_doubts(best.fit if best else doctor.space.base, as_told.tables_of(model), own, doctor.space.records)
+    fit = best.fit if best else doctor.space.base
+    doubts = calibrated_doubts(fit, as_told.tables_of(model), own, doctor.space.records, partial(gained_as_input, model, doctor.space, fit))
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
