@@ -5,6 +5,7 @@ import { doubtNotes } from "./doubts.js";
 import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
+import { saveRow } from "./in_save.js";
 import { drop, get, post, put } from "./net.js";
 
 // The place of a role in campaign.toml.
@@ -137,6 +138,7 @@ export function show(root, context) {
     context,
     faults,
     load,
+    saving: false,
     // Quantities of which all files are corrected alike.
     together: new Set(),
     redraw: () => draw(),
@@ -182,7 +184,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saveRow(bag), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
     judge();
     if (held) document.getElementById(held)?.focus();
@@ -286,48 +288,6 @@ export function show(root, context) {
         h("button", { type: "button", onclick: () => input.click() }, "Add files"),
         h("button", { type: "button", class: "plainly", onclick: () => context.go("reducer") }, "mine is not in the list"),
       ),
-    );
-  }
-
-  function saved() {
-    const lacks = data.proposal.reducer ? (data.proposal.needs.length ? "what is needed above has to be answered first" : "") : "the reducer has to be chosen first";
-    const save = async () => {
-      const found = await context.act(post("in/save"), faults);
-      if (!found) return;
-      await context.act(post("state", { model: context.state.view.model || data.proposal.reducer }), faults);
-      await load();
-      context.go("look");
-      context.start("compare", { model: data.proposal.reducer });
-    };
-    return h(
-      "div",
-      { class: "row" },
-      h(
-        "button",
-        { type: "button", class: "main", id: "save", disabled: !!lacks, title: lacks || undefined, onclick: save },
-        data.saved ? "Save anew and compare" : "Save and compare",
-      ),
-      data.saved
-        ? h(
-            "span",
-            { class: "quiet" },
-            data.own ? (data.same ? "campaign.toml is saved" : "changed since it was saved") : "campaign.toml was written elsewhere and is not overwritten",
-          )
-        : null,
-      data.saved
-        ? h(
-            "button",
-            {
-              type: "button",
-              onclick: () => {
-                context.go("look");
-                context.start("compare", { model: context.model() || data.proposal.reducer });
-              },
-            },
-            "Compare",
-          )
-        : null,
-      lacks ? h("span", { class: "fair" }, lacks) : null,
     );
   }
 
