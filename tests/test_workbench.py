@@ -176,9 +176,10 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}})
     question = "nobody says where the input was locked"
     assert [d["place"] for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == ["single"]
+    assert [d.get("cell") for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == [["single", "locked_at"]]
     save(folder)
     (finding,) = (f for f in view(folder)["findings"] if question in f["text"])
-    assert finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
+    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"single:locked_at": "40 deg"}})
     save(folder)
     found = view(folder)

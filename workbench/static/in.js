@@ -7,6 +7,7 @@ import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
 import { saveRow } from "./in_save.js";
 import { drop, get, post, put } from "./net.js";
+import { toCell } from "./to_cell.js";
 
 // The place of a role in campaign.toml.
 const ROLE = ["runs", "number", "columns", "role"];
@@ -160,7 +161,7 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
+      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, choices, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
       for (const id of open) if (id) root.querySelector(`#${id}`)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
       judge();
@@ -227,15 +228,21 @@ export function show(root, context) {
   // What is found of a column stands where the column does, what is found of numbers above them.
   const ofColumn = (f) => f.column !== undefined;
   const findings = () => {
-    const found = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open);
-    return found.length
-      ? h(
-          "details",
-          { open: found.some((f) => f.level === "problem") || found.length < 4 },
-          h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
-          found.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
-        )
-      : null;
+    const all = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open),
+      found = all.filter((f) => !f.cell),
+      told = (f) => note([f.text, f.remedy ? `; ${f.remedy} ` : " ", f.cell ? toCell(f.cell) : ""], f.level === "problem" ? "bad" : "");
+    // What one cell answers is no part of a list to be opened.
+    return [
+      all.filter((f) => f.cell).map(told),
+      found.length
+        ? h(
+            "details",
+            { open: found.some((f) => f.level === "problem") || found.length < 4 },
+            h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
+            found.map(told),
+          )
+        : null,
+    ];
   };
 
   const chooseFiles = (text = "Choose files") => h("button", { type: "button", class: "main", onclick: () => input.click() }, text);
