@@ -53,8 +53,20 @@ def display_unit(v: Variable) -> str:
     """The unit that people read it in; empty where that is its own."""
     if v.is_integer:
         return ""
-    found = v.display or next((name for name, smallest in USUAL.get(v.unit, ()) if abs(v.nominal) >= smallest), v.unit)
+    found = v.display or usual_unit(v.unit, v.nominal)
     return "" if found == v.unit else found
+
+
+def usual_unit(unit: str, size: float) -> str:
+    """The unit that people read numbers of this size in, given in ``unit``."""
+    return next((name for name, smallest in USUAL.get(unit, ()) if abs(size) >= smallest), unit)
+
+
+def read_text(value: float, unit: str, digits: int) -> str:
+    """A number of ``unit`` in the unit that people read it in: 8.9e-9 m/N as "8.9 um/kN"."""
+    read_in = usual_unit(unit, value)
+    factor, offset = conversion(unit, read_in)
+    return f"{factor * value + offset:.{digits}g}{'' if read_in == '1' else f' {read_in}'}"
 
 
 @cache

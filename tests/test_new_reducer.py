@@ -52,10 +52,21 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert main(["reducer", "new", "--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--known", "pin.radius=3mm", "--output", path]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "planets of 60 and a sun of 23 teeth with 40 pins make 105.348, which the file has" in said
-    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, pin.radius 3; of the file's 53 numbers these say 5, 17 come by published rules, 31 are" in said
+    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, pin.radius 3 mm; of the file's 53 numbers these say 5, 17 come by published rules, 31 are" in said
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
+
+
+def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_nothing_is_left_open(tmp_path, capsys):
+    """The line said "disc.equidistant_modification 3.253, crank.support_compliance 8.889e-09"; the form alone had the note, and whatever was given."""
+    catalogue, note = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--output", str(tmp_path / "mine.toml"), "--overwrite"], "scatters by a third"
+    assert main([*catalogue, "--stiffness", "392", "--known", "disc.equidistant_modification=3.253um"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert re.search(r"disc\.equidistant_modification 3\.253 um, crank\.support_compliance [0-9.]+ um/kN; of the file's", said) and note not in said
+    assert main([*catalogue, "--known", "carrier.compliance=2e-7rad/(N.m)", "--known", "mesh.friction=0.05"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "carrier.compliance 0.000687549 arcmin/(N.m), mesh.friction 0.05; of" in said and note in said
 
 
 def test_lost_motion_is_held_against_the_catalogue_s_and_the_gap_is_said_that_makes_it(tmp_path, capsys):
@@ -380,7 +391,7 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
     monkeypatch.chdir(tmp_path)
     words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", "167", "--diameter", "145", "--name", "m"]
     assert main([*words, "--stiffness", "50Nm/arcmin"]) == 0
-    assert "m/N makes the torsional stiffness that of the catalogue, 50 N.m/arcmin" in " ".join(capsys.readouterr().out.split())
+    assert "um/kN makes the torsional stiffness that of the catalogue, 50 N.m/arcmin" in " ".join(capsys.readouterr().out.split())
     made = load_reducer("m.toml")
     assert made.sources["crank_seat_compliance"] == "given: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
     assert hysteresis(made, []).stiffness_Nm_per_arcmin == pytest.approx(50.0, rel=2e-3)

@@ -176,9 +176,10 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}})
     question = "nobody says where the input was locked"
     assert [d["place"] for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == ["single"]
+    assert [d.get("cell") for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == [["single", "locked_at"]]
     save(folder)
     (finding,) = (f for f in view(folder)["findings"] if question in f["text"])
-    assert finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
+    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"single:locked_at": "40 deg"}})
     save(folder)
     found = view(folder)
@@ -602,6 +603,8 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     assert float(stiffness(by_rules)[0]) > 300.0 and stiffness(by_rules)[1].startswith("not given") and "--stiffness" not in by_rules["command"]
     found = completed(folder, {**asked, "stiffness": "212Nm/arcmin"})
     assert float(stiffness(found)[0]) == pytest.approx(212.0, rel=2e-3) and stiffness(found)[1] == "212 asked for"
+    # What the rules leave open is none where it was given.
+    assert [any("scatters by a third" in text for text in one["page"]["warnings"]) for one in (by_rules, found)] == [True, False]
     assert "--rated 784 " in found["command"] and "--stiffness 212 " in found["command"] and "support_compliance" not in found["command"]
     assert any("give 'outer diameter of the housing' if the catalogue has it" in text for text in found["page"]["warnings"])
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):

@@ -9,6 +9,7 @@ from tomlkit.exceptions import TOMLKitError
 
 from discrepancy.campaign.file_format import ConditionEntry
 from discrepancy.campaign.load import load_campaign
+from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
@@ -33,7 +34,10 @@ def cells(folder: Folder) -> dict[str, Any]:
                      for role, entry in table(run.get("columns")).items() if isinstance(entry, Mapping)}}
         for number, run in enumerate(runs_of(document))
     ]  # fmt: skip
-    keys = [key for key in CONDITION if key == "held_out" or any(key in c for c in conditions.values())]
+    # Where an input was locked is asked of loops: there must be a place to say it.
+    readers = [*runs_of(document), *table(document.get("layouts")).values()]
+    asked = {"held_out"} | ({LOCKED_AT} if any(table(reader).get("quantity") in HELD for reader in readers) else set())
+    keys = [key for key in CONDITION if key in asked or any(key in c for c in conditions.values())]
     return {"of": told(content), "keys": keys, "conditions": conditions, "runs": runs}
 
 

@@ -18,8 +18,9 @@ from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.mending import TITLES
-from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, roles_of
-from discrepancy.campaign.unplaced import unplaced
+from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, keys_that_matter, roles_of
+from discrepancy.campaign.unplaced import CODE, unplaced, unplaced_in
+from discrepancy.held_names import LOCKED_AT
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available, named_in
@@ -44,7 +45,7 @@ def choices() -> dict[str, Any]:
     """What there is to choose from: quantities with their roles, units, keys of a condition, words of tags."""
     return {
         "quantities": {
-            q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags],
+            q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags], "matter": keys_that_matter(q),
                      "roles": {role: {"title": TITLES.get(role, role.replace("_", " ")), "description": key.description,
                                       "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
             for q in QUANTITIES.values()
@@ -195,6 +196,9 @@ def view(folder: Folder) -> dict[str, Any]:
     found["proposal"] = proposal.as_json()
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
+    for told, doubt in zip(found["proposal"]["doubts"], proposal.doubts):
+        if doubt in proposal.unplaced:
+            told["cell"] = [doubt.place.split(", ")[0], LOCKED_AT]
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
@@ -221,7 +225,7 @@ def checked_campaign(folder: Folder) -> dict[str, Any]:
         return {"fault": str(fault).replace(f"{folder.root}/", "")}
     return {
         "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
-        "findings": [as_told(finding) for finding in check.findings],
+        "findings": [as_told(f) | ({"cell": [unplaced_in(campaign)[0], LOCKED_AT]} if f.code == CODE else {}) for f in check.findings],
     }
 
 

@@ -6,6 +6,8 @@ from pathlib import Path
 from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
+from fmu_src.display import read_text
+from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
 from reducers.completion.doubts import FREE
@@ -34,12 +36,15 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
         console().print(styled(("doubtful: ", "yellow"), doubt))
     numbers = completion.numbers.values()
     if (free := completion.numbers[FREE]).source.startswith(AS_STIFF):
-        console().print(f"{free.name} = {free.value:.4g} {free.unit} {free.source.removeprefix(f'{GIVEN}: ')}")
+        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {free.source.removeprefix(f'{GIVEN}: ')}")
     given, assumed = sum(n.is_given or n.name in FROM_OPTIONS for n in numbers), sum("assumed" in n.source for n in numbers)
+    said = given_words(completion.given)
     console().print(
-        f"given: {completion.given.in_words}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
+        f"given: {said}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
         f" {assumed} are assumed; each stands in the file with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
     )
+    for note in completion.left_open:
+        console().print(note)
     if tested is not None:
         console().print(in_words(tested, completion))
         if tested.gap is not None and not is_met(tested, completion):

@@ -176,6 +176,12 @@ def numbers_of(quantity: Quantity) -> tuple[str, ...]:
     return tuple(name for name in FACTOR_NAMES if name != LOCKED_AT or quantity.name in HELD)
 
 
+def keys_that_matter(quantity: Quantity) -> list[str]:
+    """Keys of a condition that are asked for a quantity: what its model needs, and what holds for whatever is measured; a loop has neither speed nor load."""
+    always = tuple(name for name in numbers_of(quantity) if name in ("temperature", "hours", LOCKED_AT))
+    return [key.key for key in FACTORS if key.name in quantity.factors + always]
+
+
 def keys_for(name: str) -> list[str]:
     """The keys that state an axis or a factor."""
     return [key.key for key in (*AXES, *FACTORS) if key.name == name]

@@ -5,6 +5,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.problem import MEAN, is_unplaced
 
+CODE = "position of loops"
 QUESTION = "nobody says where the input was locked"
 REMEDY = (
     f'state {LOCKED_AT} = "90 deg", the angle of the input, in the condition;'
@@ -12,10 +13,15 @@ REMEDY = (
 )
 
 
+def unplaced_in(campaign: Campaign) -> list[str]:
+    """Conditions of such loops."""
+    return list(dict.fromkeys(record.condition for record in campaign.records if is_unplaced(record)))
+
+
 def unplaced(campaign: Campaign) -> list[Finding]:
     """One finding for all conditions of such loops."""
-    names = list(dict.fromkeys(record.condition for record in campaign.records if is_unplaced(record)))
+    names = unplaced_in(campaign)
     if not names:
         return []
     text = f"loops in {', '.join(names)}: {QUESTION}; they are predicted as the mean over a turn of the cranks"
-    return [Finding(WARNING, "position of loops", text, REMEDY)]
+    return [Finding(WARNING, CODE, text, REMEDY)]

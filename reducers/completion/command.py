@@ -1,7 +1,9 @@
 """The command that completes a reducer, from what is given of it."""
 
 import math
+from dataclasses import fields
 
+from fmu_src.display import read_text
 from reducers.completion.complete import UNITS
 from reducers.completion.given import Given
 
@@ -22,6 +24,17 @@ def words_of(given: Given) -> list[str]:
     for name, value in given.known.items():
         words += ["--known", f"{name}={typed(value)}{'' if UNITS[name] == '1' else UNITS[name]}"]
     return words
+
+
+def given_words(given: Given) -> str:
+    """What was given in words, each number with the unit that it is read in; what is usual is left out."""
+    said = [f"ratio {given.ratio:g}", *([f"{given.pins} pins"] if given.pins_counted else []), f"rated torque {given.rated:g} N m"]
+    said += [f"diameter {given.diameter:g} mm"] if given.diameter is not None else []
+    said += [f"{given.cranks} cranks"] if given.cranks is not None else []
+    usual = {f.name: f.default for f in fields(given)}
+    own = {"speed": f"{given.speed:g} rpm", "rollers": f"{given.rollers} rollers", "lost_motion": f"lost motion {given.lost_motion:g} arcmin"}
+    said += [text for name, text in own.items() if getattr(given, name) != usual[name]]
+    return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in given.known.items())])
 
 
 def typed(value: float) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from reducers.completion.dials import ASSUMED, Dial, dials_of
-from reducers.completion.doubts import doubts_of
+from reducers.completion.doubts import FREE, doubts_of
 from reducers.completion.geometry import check_geometry
 from reducers.completion.given import SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS, SUPPORT_RULES, SUPPORT_UNITS, supports_of
@@ -42,6 +42,9 @@ NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_s
 COMPLETED, GIVEN = "completed", "given"
 # Source of crank supports: how soft they are in place is what rules leave open, and what they were fitted for to catalogues.
 AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
+SUPPORTS = (
+    "How soft a crank's bearing is in place is fitted to the RV-E series: it makes four fifths of the compliance, and scatters by a third from size to size."
+)
 PALMGREN = 8.06e4
 # kg/mm^3
 STEEL = 7.85e-6
@@ -74,6 +77,11 @@ class Completion:
     dials: list[Dial]
     numbers: dict[str, Number]
     doubts: list[str]
+
+    @property
+    def left_open(self) -> list[str]:
+        """What the rules leave open of any reducer, unless it was given: how soft its crank supports are."""
+        return [] if self.numbers[FREE].is_given else [SUPPORTS]
 
 
 def complete(given: Given) -> Completion:

@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_src.display import read_text
 from reducers.completion.given import SUN, Given
 
 # Pin circle radius [mm] over the cube root of the torque [N mm] that is usual (cycloid handbooks).
@@ -67,4 +68,5 @@ def stiffness_doubt(stiffness: str, found: float, low: float, high: float, unit:
     if low <= found <= high:
         return []
     advice = "give --diameter if the catalogue has it, or look at the unit" if diameter is None else "look at its unit, and at what else was given"
-    return [f"a torsional stiffness of {stiffness} asks for {FREE} = {found:.3g} {unit}, where rules give {low:.3g} to {high:.3g}: {advice}"]
+    asked, least, most = (read_text(value, unit, 3) for value in (found, low, high))
+    return [f"a torsional stiffness of {stiffness} asks for {FREE} = {asked}, where rules give {least} to {most}: {advice}"]

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
 from fmu_src.faults import InputFault
@@ -53,17 +53,6 @@ class Given:
         ):  # fmt: skip
             if value is not None and not (math.isfinite(value) and low <= value <= high):
                 raise InputFault(f"--{option} {value:g}{unit}: must lie from {low:g} to {high:g}{unit}; look at name plate and unit")
-
-    @property
-    def in_words(self) -> str:
-        """What was given, without what is usual."""
-        said = [f"ratio {self.ratio:g}", *([f"{self.pins} pins"] if self.pins_counted else []), f"rated torque {self.rated:g} N m"]
-        said += [f"diameter {self.diameter:g} mm"] if self.diameter is not None else []
-        said += [f"{self.cranks} cranks"] if self.cranks is not None else []
-        usual = {f.name: f.default for f in fields(self)}
-        own = {"speed": f"{self.speed:g} rpm", "rollers": f"{self.rollers} rollers", "lost_motion": f"lost motion {self.lost_motion:g} arcmin"}
-        said += [text for name, text in own.items() if getattr(self, name) != usual[name]]
-        return ", ".join([*said, *(f"{name} {value:g}" for name, value in self.known.items())])
 
     @property
     def crank_count(self) -> int:

@@ -10,10 +10,6 @@ from studies.completed_ranges import HOURS, RING_ERROR, THROW_ERROR, Influence, 
 from studies.figure_units import figure_unit
 from studies.report.assembly import assembly, zoom
 
-SUPPORTS = (
-    "How soft a crank's bearing is in place is fitted to the RV-E series: it makes four fifths of the compliance, and scatters by a third from size to size."
-)
-
 
 def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) -> Page:
     """``found`` may be empty: then nothing is said of signals."""
@@ -33,7 +29,7 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) ->
     return Page(
         "completed reducer", reducer.name, f"ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m at {given.speed:g} rpm",
         f"{known} number{'s' * (known > 1)} given, {len(completion.numbers) - known} completed by design rules", cards, sections,
-        [*completion.doubts, SUPPORTS],
+        [*completion.doubts, *completion.left_open],
     )  # fmt: skip
 
 

@@ -5,7 +5,9 @@ import { doubtNotes } from "./doubts.js";
 import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
+import { saveRow } from "./in_save.js";
 import { drop, get, post, put } from "./net.js";
+import { toCell } from "./to_cell.js";
 
 // The place of a role in campaign.toml.
 const ROLE = ["runs", "number", "columns", "role"];
@@ -137,6 +139,7 @@ export function show(root, context) {
     context,
     faults,
     load,
+    saving: false,
     // Quantities of which all files are corrected alike.
     together: new Set(),
     redraw: () => draw(),
@@ -158,7 +161,7 @@ export function show(root, context) {
     if (data.saved && !data.own) {
       const open = [...body.querySelectorAll("details[open]")].map((d) => d.id),
         held = document.activeElement?.id;
-      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
+      clear(body, numbers, h("div", { id: "there" }, elsewhere()), data.cells ? [conditionCells(data.cells, choices, correct), runCells(data.cells, choices.quantities, correct)] : null, h("div", { id: "findings" }, findings()));
       for (const id of open) if (id) root.querySelector(`#${id}`)?.setAttribute("open", "");
       if (held) document.getElementById(held)?.focus();
       judge();
@@ -182,7 +185,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saved(), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saveRow(bag), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
     judge();
     if (held) document.getElementById(held)?.focus();
@@ -225,15 +228,21 @@ export function show(root, context) {
   // What is found of a column stands where the column does, what is found of numbers above them.
   const ofColumn = (f) => f.column !== undefined;
   const findings = () => {
-    const found = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open);
-    return found.length
-      ? h(
-          "details",
-          { open: found.some((f) => f.level === "problem") || found.length < 4 },
-          h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
-          found.map((f) => note([f.text, f.remedy ? `; ${f.remedy}` : ""], f.level === "problem" ? "bad" : "")),
-        )
-      : null;
+    const all = (data.findings ?? []).filter((f) => !ofColumn(f) && !f.open),
+      found = all.filter((f) => !f.cell),
+      told = (f) => note([f.text, f.remedy ? `; ${f.remedy} ` : " ", f.cell ? toCell(f.cell) : ""], f.level === "problem" ? "bad" : "");
+    // What one cell answers is no part of a list to be opened.
+    return [
+      all.filter((f) => f.cell).map(told),
+      found.length
+        ? h(
+            "details",
+            { open: found.some((f) => f.level === "problem") || found.length < 4 },
+            h("summary", {}, `${found.length} ${found.length < data.findings.length ? "further " : ""}finding${found.length === 1 ? "" : "s"} of the check`),
+            found.map(told),
+          )
+        : null,
+    ];
   };
 
   const chooseFiles = (text = "Choose files") => h("button", { type: "button", class: "main", onclick: () => input.click() }, text);
@@ -286,48 +295,6 @@ export function show(root, context) {
         h("button", { type: "button", onclick: () => input.click() }, "Add files"),
         h("button", { type: "button", class: "plainly", onclick: () => context.go("reducer") }, "mine is not in the list"),
       ),
-    );
-  }
-
-  function saved() {
-    const lacks = data.proposal.reducer ? (data.proposal.needs.length ? "what is needed above has to be answered first" : "") : "the reducer has to be chosen first";
-    const save = async () => {
-      const found = await context.act(post("in/save"), faults);
-      if (!found) return;
-      await context.act(post("state", { model: context.state.view.model || data.proposal.reducer }), faults);
-      await load();
-      context.go("look");
-      context.start("compare", { model: data.proposal.reducer });
-    };
-    return h(
-      "div",
-      { class: "row" },
-      h(
-        "button",
-        { type: "button", class: "main", id: "save", disabled: !!lacks, title: lacks || undefined, onclick: save },
-        data.saved ? "Save anew and compare" : "Save and compare",
-      ),
-      data.saved
-        ? h(
-            "span",
-            { class: "quiet" },
-            data.own ? (data.same ? "campaign.toml is saved" : "changed since it was saved") : "campaign.toml was written elsewhere and is not overwritten",
-          )
-        : null,
-      data.saved
-        ? h(
-            "button",
-            {
-              type: "button",
-              onclick: () => {
-                context.go("look");
-                context.start("compare", { model: context.model() || data.proposal.reducer });
-              },
-            },
-            "Compare",
-          )
-        : null,
-      lacks ? h("span", { class: "fair" }, lacks) : null,
     );
   }
 

@@ -2,6 +2,7 @@
 
 import { choose, h, table, words } from "./dom.js";
 import { SCALE } from "./in_unit.js";
+import { PLACE, matters, saysNothing } from "./to_cell.js";
 
 // ``put(place, value)`` sends a correction; what is refused is shown as it was.
 const fieldOf = (put) => (place, value, label, size = 12) =>
@@ -15,18 +16,24 @@ const fieldOf = (put) => (place, value, label, size = 12) =>
     onchange: (event) => put(place, event.target.value),
   });
 
-export function conditionCells(found, put) {
+export function conditionCells(found, choices, put) {
   const field = fieldOf(put),
     tick = (place, value, label) =>
       h("input", { type: "checkbox", id: `cell-${place.join("-")}`, checked: Boolean(value), "aria-label": label, onchange: (event) => put(place, event.target.checked) });
-  const condition = (name) => [
-    h("b", {}, name),
-    ...found.keys.map((key) => (key === "held_out" ? tick : field)(["conditions", name, key], found.conditions[name][key], `${words(key)} of ${name}`)),
-  ];
+  // What a layout says of its runs is not known here: then all cells stay.
+  const known = found.runs.every((r) => typeof r.condition === "string" && r.quantity),
+    measured = (name) => found.runs.filter((r) => r.condition === name).map((r) => r.quantity);
+  const cell = (name, key) => {
+    const value = found.conditions[name][key];
+    if (known && measured(name).length && value === undefined && !matters(choices, key, measured(name))) return saysNothing(key);
+    return (key === "held_out" ? tick : field)(["conditions", name, key], value, `${words(key)} of ${name}`);
+  };
+  const condition = (name) => [h("b", {}, name), ...found.keys.map((key) => cell(name, key))];
   return h(
     "details",
     { class: "panel", id: "cells-conditions" },
     h("summary", {}, h("b", {}, "Correct conditions")),
+    found.keys.includes("locked_at") ? h("p", { class: "quiet small" }, `${PLACE}.`) : null,
     table(["condition", ...found.keys.map(words)], Object.keys(found.conditions).map(condition), [], { class: "rows" }),
   );
 }

@@ -1,6 +1,7 @@
 // Conditions of the dropped files: what is needed, what is not sure, and the table of their numbers.
 
 import { choose, h, note, table, words } from "./dom.js";
+import { PLACE, matters, saysNothing, toCell } from "./to_cell.js";
 
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
 const UNITS = { output_speed: "rpm", input_speed: "rpm", load_torque: "N.m", temperature: "degC", hours: "h", locked_at: "deg" };
@@ -51,7 +52,7 @@ export function questions(bag) {
           "details",
           { open: unsettled && doubts.length < 6 },
           h("summary", {}, unsettled ? `${doubts.length} not sure` : `saved with ${doubts.length} guess${doubts.length === 1 ? "" : "es"} that ${doubts.length === 1 ? "was" : "were"} not sure`),
-          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text}`])),
+          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text} `, d.cell ? toCell(d.cell) : ""])),
         )
       : null,
   ];
@@ -76,7 +77,8 @@ function amount(key, text, onchange, id) {
     size: Math.max(8, plain.length),
     id,
     "aria-label": words(key),
-    title: UNITS[key] ? TYPED : undefined,
+    title: key === "locked_at" ? PLACE : UNITS[key] ? TYPED : undefined,
+    placeholder: key === "locked_at" ? "or mean" : undefined,
     oninput: () => beside(),
     onchange: () => {
       const given = field.value.trim();
@@ -91,10 +93,9 @@ export function conditions(bag) {
   const { data, choices, wish, putIn } = bag;
   const all = data.proposal.conditions,
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
-    // Where an input was locked matters to what is measured with it held.
-    locks = data.proposal.runs.some((r) => choices.quantities[r.quantity.value]?.roles.locked_at),
-    offered = ["load_torque", "temperature", ...(locks ? ["locked_at"] : [])];
-  const keys = CONDITION.filter((k) => used.has(k) || (k === "output_speed" && !used.has("input_speed")) || offered.includes(k));
+    asked = (key, runs) => matters(choices, key, runs.map((r) => r.quantity.value)),
+    offered = ["load_torque", "temperature", "locked_at", ...(used.has("input_speed") ? [] : ["output_speed"])];
+  const keys = CONDITION.filter((k) => used.has(k) || (offered.includes(k) && asked(k, data.proposal.runs)));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
       names = withJoined(data.proposal, name),
@@ -115,6 +116,8 @@ export function conditions(bag) {
       h("b", {}, name),
       String(runs.length),
       ...keys.map((key) => {
+        // What is stated all the same stays to be seen.
+        if (!(key in stated) && !asked(key, runs)) return saysNothing(key);
         const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text), `c-${name}-${key}`);
         return label.tagName === "LABEL"
           ? h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"))
@@ -130,7 +133,7 @@ export function conditions(bag) {
     h(
       "p",
       { class: "quiet small" },
-      `Read from names and heads of the files; what stands here wins; ${TYPED}. Held-out conditions are never fitted: the error that counts is theirs.`,
+      `Read from names and heads of the files; what stands here wins; ${TYPED}. ${keys.includes("locked_at") ? `${PLACE}. ` : ""}Held-out conditions are never fitted: the error that counts is theirs.`,
     ),
     h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );

@@ -9,6 +9,8 @@ export function show(root, context) {
     form = {},
     known = {},
     made = null,
+    // The file that was saved here last.
+    saved = "",
     search = "",
     model = context.model(),
     timer = 0;
@@ -31,7 +33,14 @@ export function show(root, context) {
   }
 
   function draw() {
-    const all = [...data.files, ...data.library];
+    bar();
+    drawBody();
+  }
+
+  // Whose numbers stand below, and which model the other views go on with: what is looked at here changes that by a click alone.
+  function bar() {
+    const all = [...data.files, ...data.library],
+      used = context.model();
     clear(
       top,
       h(
@@ -41,7 +50,7 @@ export function show(root, context) {
           "label",
           { class: "inline" },
           "reducer",
-          choose([["", "choose…"], ...all.map((r) => [r, r])], model, (v) => {
+          choose([["", made ? "a new reducer, not saved yet" : "choose…"], ...all.map((r) => [r, r])], made ? "" : model, (v) => {
             made = null;
             load(v);
           }),
@@ -58,11 +67,18 @@ export function show(root, context) {
           },
           "Complete one from a few numbers",
         ),
-        data.reducer && context.model() !== model
-          ? h("button", { type: "button", onclick: () => context.act(post("state", { model }), faults) }, "Use it as the model")
+        data.reducer && used !== model && !made
+          ? h("button", { type: "button", id: "use", onclick: () => context.choose(model) }, "Use it as the model")
           : null,
+        h("span", { class: "quiet", id: "used" }, used ? `Look, Diagnose, Try and Life use ${used}${used === model && !made ? ", this one" : ""}` : "no model is chosen yet for Look, Diagnose, Try and Life"),
       ),
+      saved && saved === model && !made
+        ? h("p", { class: "note", role: "status", id: "kept" }, `${saved} is in the folder.`, used === saved ? "" : ` The other views stay with ${used || "no model"}, until "Use it as the model" is clicked.`)
+        : null,
     );
+  }
+
+  function drawBody() {
     if (made) {
       clear(body, newOne());
       return;
@@ -155,17 +171,16 @@ export function show(root, context) {
         clear(result);
         return;
       }
-      clear(
-        said,
-        found.saved ? h("p", { class: "note" }, `${found.saved} is in the folder`) : null,
-        found.findings.map((t) => note(t, "bad")),
-      );
       if (found.saved) {
         made = null;
-        await context.act(post("state", { model: found.saved }), faults);
-        load(found.saved);
+        saved = found.saved;
+        load(saved);
         return;
       }
+      clear(
+        said,
+        found.findings.map((t) => note(t, "bad")),
+      );
       const held = document.activeElement?.id;
       clear(
         result,
@@ -254,9 +269,13 @@ export function show(root, context) {
   }
 
   load();
+  let used = context.model();
   return {
     update(state) {
-      if (data && JSON.stringify(state.models) !== JSON.stringify(data.files) && !made) load();
+      if (!data) return;
+      if (JSON.stringify(state.models) !== JSON.stringify(data.files) && !made) load();
+      else if (used !== context.model()) bar();
+      used = context.model();
     },
     recolour: () => recolour(root),
     close: () => clearTimeout(timer),
