@@ -12,6 +12,7 @@ from cli.columns import in_lines, widest
 from cli.screen import WIDTH, console
 from cli.show import guesses
 from cli.show.bench import show_bench
+from cli.show.campaign import LEVELS, show_overview
 from cli.show.comparison import show_figures
 from cli.show.life import LIFE_COLUMNS, life_table
 from discrepancy.campaign.guess.propose import propose
@@ -88,3 +89,17 @@ def test_runs_of_a_proposal_break_names_where_their_words_end(capsys, tmp_path):
 ])  # fmt: skip
 def test_where_a_name_is_broken(name, width, lines):
     assert in_lines(name, width).split("\n") == lines
+
+
+def test_overview_of_a_campaign_has_whole_heads_and_says_once_what_is_alike(capsys):
+    """Heads were cut to ``condi… repli… tempe…``, over columns of which half said 1 in every row."""
+    row = {"quantity": "transmission_error", "runs": 1200, "held_out": 120, "conditions": 60, "replicates": 20, "values": 1234567}
+    show_overview("bench 7", [row | dict.fromkeys(LEVELS, 12), row | {"quantity": "hysteresis"} | dict.fromkeys(LEVELS, 1)], console(WIDTH))
+    every = capsys.readouterr().out
+    assert "…" not in every and widest(every.splitlines()) <= WIDTH
+    assert every.count("1234567") == 2 and all(end in every for end in ("ratures", "repli-", "tings")) and "at most" not in every
+    alike = dict(zip(LEVELS, (3, 2, 1, 0, 1, 1)))
+    show_overview("bench 7", [row | alike, row | {"load": 0, "speed": 0} | dict.fromkeys(list(alike)[2:], 0)], console(WIDTH))
+    fewer = capsys.readouterr().out
+    assert "one temperature, one direction, one mounting at most; no hours stated" in fewer
+    assert "loads  speeds" in fewer and "direc-" not in fewer and "hours " not in fewer.replace("no hours stated", "")
