@@ -66,6 +66,21 @@ def test_key_figures_have_conditions_whole(capsys):
         assert all(f" {name} " in told for name in shown) and widest(told.splitlines()) <= WIDTH
 
 
+def test_key_figures_take_one_or_two_lines(capsys):
+    """The sun's took seven, while conditions were broken beside it."""
+    sun, axes = "sun (order 120 also 3 x crank against carrier), orders 120, 121", "torsional stiffness, backward, unloading"
+    condition = "滞回曲线_输入轴锁定"
+    figures = [KeyFigure("transmission_error", condition, name, "rad", 7.49e-5, 2.93e-5, 6e-8, 2, True) for name in (sun, "crank against carrier, orders 40, 80")]
+    figures += [KeyFigure("hysteresis[locked=input]", condition, axes, "N.m/rad", 1.7e5, 1.72e5, 1.4e2, 3, True)]
+    show_figures(figures, console(WIDTH), load_model("RV20E-121"), True)
+    told = capsys.readouterr().out
+    lines = [line.strip() for line in told.splitlines()]
+    assert told.count(f" {condition} ") == 3 and widest(told.splitlines()) <= WIDTH
+    assert any(line.startswith("sun, orders 120, 121  ") for line in lines) and "sun: order 120 also 3 x crank against carrier" in lines
+    begin, end = lines.index("transmission_error:"), lines.index("hysteresis[locked=input]:")
+    assert end - begin <= 6 and lines[end + 2].endswith("unloading")
+
+
 def test_names_of_conditions_end_lines_where_words_of_them_do(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "64")
     conditions = {name: [Figure("hysteresis loss", 1.0, "arcmin", "what it is", (0.5, 1.5))] for name in (LOCKED, "warm_without_load_backward")}
