@@ -7,8 +7,8 @@ from itertools import zip_longest
 from rich.cells import cell_len, chop_cells
 from rich.table import Table
 
-# What of a name stays together: up to where a word of it ends, and one sign of those that are written without spaces between words.
-PIECES = re.compile(r"[^\s_⺀-鿿가-퟿豈-﫿＀-￯]+[\s_]*|.[\s_]*", re.DOTALL)
+# What of a name stays together: up to where a word of it ends or a bracket begins, and one sign of those that are written without spaces between words.
+PIECES = re.compile(r"\[?[^\s_\[⺀-鿿가-퟿豈-﫿＀-￯]+[\s_]*|.[\s_]*", re.DOTALL)
 # A name in less width cannot be read.
 LEAST = 8
 

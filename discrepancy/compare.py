@@ -118,9 +118,18 @@ def floating_text(floating: Mapping[str, int]) -> str:
             " output floats, and the first samples of a loop whose ways lie close hang on whether it was gone round before")
 
 
-def calibrated_text(model: PhysicalModel, values: Mapping[str, float]) -> str:
-    """What of the model was calibrated to the campaign before it was held against it: ``model_error[hysteresis] = -10``; empty for nothing."""
-    return ", ".join(f"{name} = {scale.text(value, 6)}" for name, value, scale in calibrated_numbers(model, values))
+def calibrated_texts(model: PhysicalModel, values: Mapping[str, float]) -> list[str]:
+    """What of the model was calibrated to the campaign before it was held against it, a line for each meaning; empty for nothing.
+
+    ``angle_zero[1] = -62.87 arcmin, angle_zero[2] = 3.1 arcmin: output angle of the model at the record's angle 0``.
+    """
+    meanings = {p.name: p.description for p in model.nuisances}
+    lines: dict[str, list[str]] = {}
+    for own, (name, value, scale) in zip(values, calibrated_numbers(model, values)):
+        # Without one there is nothing that numbers have in common.
+        lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {scale.text(value, 4)}")
+    known = set(meanings.values())
+    return [", ".join(numbers) + (f": {meaning}" if meaning in known else "") for meaning, numbers in lines.items()]
 
 
 def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> list[tuple[str, float, Scale]]:

@@ -33,6 +33,7 @@ def write_tables(tables: Sequence[Table], path: Path) -> list[Path]:
     """The files that were written, each whole or not at all.
 
     MAT and Excel hold all tables; of CSV and Parquet each has a file of its own, the first under ``path``, the others as ``NAME_table.csv``.
+    CSV is UTF-8, with a byte order mark where a sign is outside ASCII.
     A note is a comment line in CSV, a sheet in Excel, a field in MAT, an attribute of the frame in Parquet.
     Heads are ``torque [N.m]``; in MAT fields are ``torque`` and a structure ``units`` has the same fields.
     """
@@ -50,8 +51,9 @@ def write_csv(tables: Sequence[Table], path: Path) -> list[Path]:
     for table, own in beside(tables, path):
         with replacing(own) as partial:
             # As many digits as a number has.
-            text = table.frame().to_csv(index=False)
-            partial.write_text((f"# {table.note}\n" if table.note else "") + text, encoding="utf-8", newline="")
+            text = (f"# {table.note}\n" if table.note else "") + table.frame().to_csv(index=False)
+            # Excel takes UTF-8 without a byte order mark for the machine's own code page; other programs need none where all is ASCII.
+            partial.write_text(text, encoding="utf-8" if text.isascii() else "utf-8-sig", newline="")
     return [own for _, own in beside(tables, path)]
 
 

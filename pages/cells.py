@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from pages.fonts import room_of
 from pages.look import Trace
 from pages.marks import SIGN_WIDTH, colour_of, numbers, spelled
 
@@ -44,7 +45,7 @@ def column_names(trace: Trace, width: float) -> tuple[list[str], float]:
     """The names, and how they lie [degrees]: level where they have room beside each other."""
     names = [spelled(name) for name in trace["x"]]
     room = room_of_column(trace, width)
-    if max(len(line) for name in names for line in name.split("\n")) * SIGN_WIDTH < room:
+    if max(room_of(line) for name in names for line in name.split("\n")) < room:
         return names, 0.0
     lying = SLANTED if room * math.sin(math.radians(SLANTED)) >= 0.9 * LINE else UPRIGHT
     return [name.replace("\n", " ") for name in names], lying
@@ -54,7 +55,7 @@ def least_height(trace: Trace, width: float) -> float:
     """The height [mm] in which every row holds its name and every column's name is whole."""
     lines = max(name.count("\n") + 1 for name in row_names(trace, width))
     names, lying = column_names(trace, width)
-    longest = max(len(name) for name in names) * SIGN_WIDTH
+    longest = max(map(room_of, names))
     below = longest * math.sin(math.radians(lying)) if lying else LINE * max(name.count("\n") + 1 for name in names)
     scale = LOWEST_SCALE if trace.get("showscale", True) else 0.0
     return max(len(trace["y"]) * (LINE * lines + BETWEEN), scale) + below + FREE

@@ -13,6 +13,7 @@ from typing import Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart
 from pages.cells import heat, is_worded, least_height
+from pages.fonts import printed
 from pages.look import Figure, Layout, Trace
 from pages.marks import INCH, SIGN_WIDTH, bars, line_of, polar_curve, spelled
 from pages.titles import folded, keep_within, title_of
@@ -34,7 +35,7 @@ LINE_HEIGHT = 3.6
 STYLE = {
     "font.size": 7.5, "axes.labelsize": 7.5, "axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
-    "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "svg.fonttype": "path", "pdf.fonttype": 42, "svg.hashsalt": "rvwear",
+    "svg.fonttype": "path", "pdf.fonttype": 42, "svg.hashsalt": "rvwear",
     "axes.spines.top": False, "axes.spines.right": False, "axes.formatter.useoffset": False, "grid.color": "#e4e9ee", "grid.linewidth": 0.5,
 }  # fmt: skip
 
@@ -84,17 +85,14 @@ def name_beside(stem: str, figure: str) -> str:
 
 def save(picture: Any, path: Path) -> None:
     """A picture of ``drawn`` as a file; equal pictures give equal bytes."""
-    import matplotlib as mpl
-
     # What would differ from run to run.
     metadata: dict[str, Any] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower(), {})
-    with replacing(path) as partial, mpl.rc_context(STYLE):
+    with replacing(path) as partial, printed(STYLE):
         picture.savefig(partial, format=path.suffix.lower().lstrip("."), dpi=DOTS, metadata=metadata)
 
 
 def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
     """A matplotlib figure, ``width`` mm wide."""
-    import matplotlib as mpl
     from matplotlib.figure import Figure as Picture
 
     lines = any(trace.get("type") in ("scatter", "scatterpolar") for trace in figure.data)
@@ -105,7 +103,7 @@ def drawn(figure: Figure, width: float = WIDTHS["single"]) -> Any:
         across, _, along = figure.aspect.partition("/")
         height = width * float(along or 1.0) / float(across)
     height = max([height, *(least_height(trace, width) for trace in figure.data if trace.get("type") == "heatmap" and is_worded(trace))])
-    with mpl.rc_context(STYLE):
+    with printed(STYLE):
         picture = Picture(figsize=(width / INCH, height / INCH), dpi=DOTS, layout="constrained")
         traces = [trace for trace in figure.data if trace.get("visible", True) is True]
         if any(trace.get("type") == "scatterpolar" for trace in traces):

@@ -94,6 +94,7 @@ def export(result: Result, *files: str | Path, width: str = "single") -> list[Pa
     """Write a result as tables (.csv, .parquet, .mat, .xlsx) or pictures (.svg, .pdf, .png), by the files' endings; the files written.
 
     CSV and Parquet take one table a file, pictures are one a file: further ones stand beside the first as ``NAME_table.csv``, ``NAME_figure.svg``.
+    CSV is UTF-8, with a byte order mark where it has signs outside ASCII, for Excel.
 
     >>> import rvwear, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:

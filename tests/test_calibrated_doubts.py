@@ -101,9 +101,24 @@ def test_what_ended_at_nothing_is_told_as_nothing():
     """A share of the model's lag was told as 3.02585e-10."""
     from types import SimpleNamespace
 
-    from discrepancy.compare import calibrated_text
+    from discrepancy.compare import calibrated_texts
     from discrepancy.problem import Parameter
 
     model = SimpleNamespace(nuisances=(Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3), Parameter("angle", "rad", 0.0, -1.0, 1.0, 1e-5)))
-    assert calibrated_text(model, {"lag_share": 3.02585e-10, "angle": 2e-12}) == "lag_share = 0, angle = 4.1253e-07 arcsec"
-    assert calibrated_text(model, {"lag_share": 0.02, "angle": 1e-13}) == "lag_share = 0.02, angle = 0 arcsec"
+    assert calibrated_texts(model, {"lag_share": 3.02585e-10, "angle": 2e-12}) == ["lag_share = 0", "angle = 4.125e-07 arcsec"]
+    assert calibrated_texts(model, {"lag_share": 0.02, "angle": 1e-13}) == ["lag_share = 0.02", "angle = 0 arcsec"]
+
+
+def test_what_was_calibrated_is_told_with_its_meaning():
+    """"angle_zero[1] = -55.0386 arcmin, lag_share = 1.00309" said nothing to who does not know the names."""
+    from types import SimpleNamespace
+
+    from discrepancy.compare import calibrated_texts
+    from discrepancy.problem import Parameter
+
+    angle = "output angle of the model at the record's angle 0"
+    zeros = [Parameter(f"angle_zero[{k}]", "rad", 0.0, -1.0, 1.0, 1e-5, description=angle) for k in (1, 2)]
+    model = SimpleNamespace(nuisances=(*zeros, Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3, description="lag of the output")))
+    assert calibrated_texts(model, {"angle_zero[1]": -0.0160101, "lag_share": 1.00309, "angle_zero[2]": 1e-3, "own": 2.0}) == [
+        f"angle_zero[1] = -55.04 arcmin, angle_zero[2] = 3.438 arcmin: {angle}", "lag_share = 1.003: lag of the output", "own = 2",
+    ]

@@ -49,6 +49,15 @@ def test_speeds_and_loads_as_measured_are_one(tmp_path):
     assert len([d for d in proposal.doubts if "500 rpm is taken for the input_speed" in d.text]) == 1
 
 
+def test_speeds_that_are_taken_for_one_shafts_are_told_once(tmp_path):
+    """A note for each speed said the same."""
+    proposal = proposed(tmp_path, {f"te_{load}Nm_{speed}rpm.csv": [] for load in (42, 167) for speed in (1500, 600, 15)})
+    (doubt,) = [d for d in proposal.doubts if "for the input_speed" in d.text]
+    assert doubt.text == "600 and 1500 rpm are taken for the input_speed: each is faster than outputs turn"
+    assert doubt.place == "te_167Nm_1500rpm.csv and 3 more" and "{output_speed}" in doubt.remedy
+    assert [d.text for d in proposal.doubts if "output_speed:" in d.text] == ["15 rpm is taken for the output_speed: 15 rpm is slow enough for the output"]
+
+
 @pytest.mark.parametrize("names, heads", [
     (["te_15rpm_25C_1.csv", "te_15rpm_25p4C_1.csv", "te_15rpm_26C_1.csv"], [[], [], []]),
     (["te_15rpm_1.csv", "te_15rpm_2.csv", "te_15rpm_3.csv"], [["Temperatur: 25 °C"], ["Temperatur: 26 °C"], ["Temperatur: 40.3 °C"]]),

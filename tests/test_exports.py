@@ -1,5 +1,6 @@
 """Results for other programs and for papers: what is written is what was computed, with units, and other programs read it."""
 
+import codecs
 import json
 import re
 from itertools import pairwise
@@ -16,6 +17,8 @@ from cli.exporting import write_exports
 from cli.main import main
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.readers import Options
+from discrepancy.campaign.readers.csv import read
 from discrepancy.page import maps
 from discrepancy.tables import tables_of as measured_tables
 from exports.plain import plain, plain_json
@@ -186,6 +189,17 @@ def test_what_is_drawn_about_its_mean_says_so_and_the_mean():
     lag = float(turn["lag"].mean())
     assert [trace["name"] for trace in figure.data][1] == f"lag of the carrier, less {number(lag)} arcsec"
     assert "about its mean" in figure.layout["yaxis"]["title"]["text"]
+
+
+@pytest.mark.parametrize("note", ["", "pins altered by 3 µm"])
+def test_csv_with_signs_outside_ascii_tells_excel_that_it_is_utf8(tmp_path, note):
+    """Names of conditions in Chinese were read in the machine's code page."""
+    columns = Column("condition", "", ["滞回曲线_1", "滞回曲线_2"]), Column("angle", "deg", [1.0, 2.0])
+    write_tables([Table("curve", columns, note)], tmp_path / "a.csv")
+    write_tables([Table("curve", columns[1:])], tmp_path / "b.csv")
+    assert (tmp_path / "a.csv").read_bytes().startswith(codecs.BOM_UTF8) and (tmp_path / "b.csv").read_bytes().startswith(b"angle")
+    for file, names in (("a", {"condition", "angle [deg]"}), ("b", {"angle [deg]"})):
+        assert list(read(tmp_path / f"{file}.csv", names, Options())["angle [deg]"]) == [1.0, 2.0]
 
 
 def test_what_is_altered_says_so_wherever_it_goes(tmp_path):

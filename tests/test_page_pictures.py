@@ -85,3 +85,38 @@ def test_a_title_below_a_plot_ends_before_the_edge_of_the_picture():
             assert words == f"sin {note}"
     # Where there is room, nothing is folded that was not.
     assert label.get_text().count("\n") == 1
+
+
+def names_of_columns(names, width):
+    """Boxes of the names below a map of one row, as drawn."""
+    from pages.paper import drawn
+
+    cells = {("transmission_error", name): 3.0 + k for k, name in enumerate(names)}
+    picture = drawn(maps.grid("", "", "error_map", cells), width)
+    picture.canvas.draw()
+    return picture, picture.axes[0].get_xticklabels()
+
+
+@pytest.mark.parametrize("names", [
+    ["1500rpm_167N.m", "600rpm_167N.m", "1500rpm_42N.m", "600rpm_42N.m", "600rpm_84N.m", "warm"], [f"滞回曲线_输入{k}" for k in range(7)],
+])  # fmt: skip
+def test_names_of_conditions_stand_apart_below_a_map(names):
+    """They were level, and ran into one another: digits are wider than other signs, Chinese ones twice as wide.  Without a font for these nothing warns."""
+    pytest.importorskip("matplotlib", reason="no matplotlib: pip install matplotlib")
+    picture, labels = names_of_columns(names, 190.0)
+    boxes = [label.get_window_extent() for label in labels]
+    assert all(label.get_rotation() > 0.0 for label in labels) or all(left.x1 < right.x0 for left, right in pairwise(boxes))
+    assert min(box.y0 for box in boxes) >= picture.bbox.y0 and [label.get_text() for label in labels] == names
+    assert picture.axes[0].get_window_extent().height / picture.dpi * 25.4 > 5.0
+    assert all(label.get_rotation() == 0.0 for label in names_of_columns(["warm", "cold"], 190.0)[1])
+
+
+def test_fonts_with_chinese_signs_stand_behind_the_latin_one():
+    """Only installed ones: of others matplotlib would say that it did not find them."""
+    mpl = pytest.importorskip("matplotlib", reason="no matplotlib: pip install matplotlib")
+    from pages.fonts import LATIN, families, printed
+
+    with printed({}):
+        # Behind "sans-serif" matplotlib would look at one font alone.
+        assert mpl.rcParams["font.family"][0] == LATIN
+    assert families([]) == [LATIN] and families(["SimHei", "Arial", "Noto Sans CJK JP"]) == [LATIN, "Noto Sans CJK JP", "SimHei"]

@@ -12,6 +12,7 @@ from cli.columns import in_lines, widest
 from cli.screen import WIDTH, console
 from cli.show import guesses
 from cli.show.bench import show_bench
+from cli.show.campaign import LEVELS, show_overview
 from cli.show.comparison import show_figures
 from cli.show.life import LIFE_COLUMNS, life_table
 from discrepancy.campaign.guess.propose import propose
@@ -65,6 +66,21 @@ def test_key_figures_have_conditions_whole(capsys):
         assert all(f" {name} " in told for name in shown) and widest(told.splitlines()) <= WIDTH
 
 
+def test_key_figures_take_one_or_two_lines(capsys):
+    """The sun's took seven, while conditions were broken beside it."""
+    sun, axes = "sun (order 120 also 3 x crank against carrier), orders 120, 121", "torsional stiffness, backward, unloading"
+    condition = "滞回曲线_输入轴锁定"
+    figures = [KeyFigure("transmission_error", condition, name, "rad", 7.49e-5, 2.93e-5, 6e-8, 2, True) for name in (sun, "crank against carrier, orders 40, 80")]
+    figures += [KeyFigure("hysteresis[locked=input]", condition, axes, "N.m/rad", 1.7e5, 1.72e5, 1.4e2, 3, True)]
+    show_figures(figures, console(WIDTH), load_model("RV20E-121"), True)
+    told = capsys.readouterr().out
+    lines = [line.strip() for line in told.splitlines()]
+    assert told.count(f" {condition} ") == 3 and widest(told.splitlines()) <= WIDTH
+    assert any(line.startswith("sun, orders 120, 121  ") for line in lines) and "sun: order 120 also 3 x crank against carrier" in lines
+    begin, end = lines.index("transmission_error:"), lines.index("hysteresis[locked=input]:")
+    assert end - begin <= 6 and lines[end + 2].endswith("unloading")
+
+
 def test_names_of_conditions_end_lines_where_words_of_them_do(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "64")
     conditions = {name: [Figure("hysteresis loss", 1.0, "arcmin", "what it is", (0.5, 1.5))] for name in (LOCKED, "warm_without_load_backward")}
@@ -88,3 +104,17 @@ def test_runs_of_a_proposal_break_names_where_their_words_end(capsys, tmp_path):
 ])  # fmt: skip
 def test_where_a_name_is_broken(name, width, lines):
     assert in_lines(name, width).split("\n") == lines
+
+
+def test_overview_of_a_campaign_has_whole_heads_and_says_once_what_is_alike(capsys):
+    """Heads were cut to ``condi… repli… tempe…``, over columns of which half said 1 in every row."""
+    row = {"quantity": "transmission_error", "runs": 1200, "held_out": 120, "conditions": 60, "replicates": 20, "values": 1234567}
+    show_overview("bench 7", [row | dict.fromkeys(LEVELS, 12), row | {"quantity": "hysteresis"} | dict.fromkeys(LEVELS, 1)], console(WIDTH))
+    every = capsys.readouterr().out
+    assert "…" not in every and widest(every.splitlines()) <= WIDTH
+    assert every.count("1234567") == 2 and all(end in every for end in ("ratures", "repli-", "tings")) and "at most" not in every
+    alike = dict(zip(LEVELS, (3, 2, 1, 0, 1, 1)))
+    show_overview("bench 7", [row | alike, row | {"load": 0, "speed": 0} | dict.fromkeys(list(alike)[2:], 0)], console(WIDTH))
+    fewer = capsys.readouterr().out
+    assert "one temperature, one direction, one mounting at most; no hours stated" in fewer
+    assert "loads  speeds" in fewer and "direc-" not in fewer and "hours " not in fewer.replace("no hours stated", "")

@@ -355,6 +355,12 @@ PAST = """async () => {
   }"""
 
 
+def test_numbers_behind_a_plot_tell_excel_that_they_are_utf8(bench):
+    bench.page.goto(bench.address)
+    text = """async (text) => { const { marked } = await import('./static/behind.js'); return marked(text); }"""
+    assert [bench.page.evaluate(text, head) for head in ('"angle [°]"\n1', '"x [m]"\n1', "滞回")] == ['\ufeff"angle [°]"\n1', '"x [m]"\n1', "\ufeff滞回"]
+
+
 def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, tmp_path):
     page = dropped(bench, tmp_path)
     (tmp_path / "loop_1.csv").write_text("nothing\n")

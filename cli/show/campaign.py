@@ -1,10 +1,13 @@
 """What ``rvwear campaign`` shows on the screen."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+from rich.console import Console
 from rich.table import Table
 
-from cli.screen import WIDTH, console, dense, styled
+from cli.columns import fill
+from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.campaign.check import Check
 from discrepancy.campaign.findings import PROBLEM
 from discrepancy.campaign.pairs import HOLDS_FOR, Verdict
@@ -12,18 +15,22 @@ from discrepancy.separability import Separability
 
 # How a campaign leaves two effects that look alike.
 SEPARABLE, ALIKE, UNSEEN = "separable", "not separable", "not visible"
+# Columns of the overview by their keys; long words are divided, so that each head is whole where all of them stand beside one another.
+HEADS = {
+    "quantity": "quantity", "runs": "runs", "held_out": "held\nout", "conditions": "condi-\ntions", "replicates": "repli-\ncates", "values": "values",
+    "load": "loads", "speed": "speeds", "temperature": "tempe-\nratures", "hours": "hours", "directions": "direc-\ntions", "mountings": "moun-\ntings",
+}  # fmt: skip
+# What a campaign has levels of: one of them, and how it is called where it is stated nowhere.
+LEVELS = {
+    "load": ("load", "loads"), "speed": ("speed", "speeds"), "temperature": ("temperature", "temperatures"), "hours": ("number of hours", "hours"),
+    "directions": ("direction", "directions"), "mountings": ("mounting", "mountings"),
+}  # fmt: skip
 
 
 def show(check: Check) -> None:
     """Overview, findings, pairs."""
     out = console(WIDTH)
-    table = dense(f"{check.campaign.name}: what is measured (levels without held-out runs)")
-    for name in check.summary[0]:
-        first = name == "quantity"
-        table.add_column(name.replace("_", "\n"), justify="left" if first else "right", no_wrap=first)
-    for row in check.summary:
-        table.add_row(*map(str, row.values()))
-    out.print(table)
+    show_overview(check.campaign.name, check.summary, out)
     for finding in check.findings:
         out.print(styled((finding.level, "red" if finding.level == PROBLEM else "yellow"), f" {finding.text}; {finding.remedy}"))
     show_pairs(check.pairs)
@@ -31,6 +38,29 @@ def show(check: Check) -> None:
     outcome = f"{problems} problem{'s' * (problems != 1)}, {len(check.findings) - problems} warnings"
     impossible = "no diagnosis can be relied on yet" if check.campaign.training else "no diagnosis is possible yet"
     out.print(f"{outcome}; {impossible if problems else 'a diagnosis is possible'}")
+
+
+def show_overview(name: str, summary: Sequence[Mapping[str, Any]], out: Console) -> None:
+    """A row for each quantity; factors of one level, or of none, have no column but stand once above the table."""
+    title = f"{name}: what is measured (levels without held-out runs)"
+    table = dense("\n".join(filter(None, (title, alike_text(summary)))))
+    kept = [key for key in summary[0] if key not in LEVELS or most(summary, key) > 1]
+    columns = {HEADS[key]: [str(row[key]) for row in summary] for key in kept}
+    fill(table, columns, out.width - BETWEEN * len(columns), [HEADS["quantity"]], right=[HEADS[key] for key in kept if key != "quantity"])
+    out.print(table)
+
+
+def most(summary: Sequence[Mapping[str, Any]], key: str) -> int:
+    """The most levels of a factor that any quantity is measured at."""
+    return max(int(row[key]) for row in summary)
+
+
+def alike_text(summary: Sequence[Mapping[str, Any]]) -> str:
+    """What no quantity is measured at several levels of: ``one temperature, one direction, one mounting at most; no hours stated``."""
+    single = [f"one {one}" for key, (one, _) in LEVELS.items() if most(summary, key) == 1]
+    none = [many for key, (_, many) in LEVELS.items() if most(summary, key) == 0]
+    stated = f"no {' and no '.join(none)} stated" if none else ""
+    return "; ".join(filter(None, (f"{', '.join(single)} at most" if single else "", stated)))
 
 
 def show_pairs(pairs: Sequence[Verdict]) -> None:

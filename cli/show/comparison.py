@@ -1,6 +1,6 @@
 """What the commands of the loop show on the screen."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -9,7 +9,7 @@ from rich.table import Table
 from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import Comparison, calibrated_text
+from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
@@ -19,6 +19,7 @@ from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
+from discrepancy.prediction.orders import apart_from_remark
 from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -68,31 +69,47 @@ def show_comparison(comparison: Comparison) -> None:
                       styled((f"{row['ratio']:.2f}", ratio_colour(row["ratio"], row["held_out"]))))
     out.print(table)
     if comparison.nuisances:
-        out.print("calibrated  " + calibrated_text(comparison.model, comparison.nuisances))
+        out.print("calibrated to this campaign before anything was compared:")
+        for text in calibrated_texts(comparison.model, comparison.nuisances):
+            out.print(f"  {text}")
     show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
 def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool) -> None:
-    """Key figures that are furthest off the model, one row each with the condition where it is."""
+    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest."""
     worst = furthest(figures)
     if not worst:
         return
     table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else ""))
-    rows = worst[:LONGEST]
-    cells = []
-    for f in rows:
-        (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
-        noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
-        off = f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"
-        cells.append((f.signal.replace("[", "\n["), f.name, f.condition, measured, noise, model, unit, off))
-    heads = ("signal", "figure", "condition", "measured", "noise", "model", "", "off/noise")
+    heads = ("figure", "condition", "measured", "noise", "model", "", "off/noise")
     numbers = ("measured", "noise", "model", "off/noise")
-    fill(table, dict(zip(heads, zip(*cells))), out.width - BETWEEN * len(heads), ["condition"], ["signal", "figure"], numbers)
+    rows = figure_rows(worst[:LONGEST])
+    fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=numbers)
     out.print(table)
+    for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in worst[:LONGEST]))):
+        out.print(remark)
     if len(figures) > min(len(worst), LONGEST):
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
+
+
+def figure_rows(figures: Sequence[KeyFigure]) -> list[tuple[str, ...]]:
+    """Cells of key figures in groups, their signal in a line above each: in a column of its own it would take the room that names need."""
+    groups: dict[str, list[KeyFigure]] = {}
+    for f in figures:
+        groups.setdefault(f.signal, []).append(f)
+    rows: list[tuple[str, ...]] = []
+    for signal, members in groups.items():
+        rows += [("",) * 7] * bool(rows) + [(f"{signal}:", *[""] * 6), *map(figure_row, members)]
+    return rows
+
+
+def figure_row(f: KeyFigure) -> tuple[str, ...]:
+    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
+    noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
+    off = f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"
+    return apart_from_remark(f.name)[0], f.condition, measured, noise, model, unit, off
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:

@@ -1,10 +1,13 @@
 """Names of the orders of the output's turn that a reducer makes."""
 
+import re
 from collections.abc import Mapping
 
 from discrepancy.prediction.bench import Bench
 
 HARMONICS = 3
+# What a name says of orders that others make, too.
+REMARK = re.compile(r" \((order \S+ also [^)]*)\)")
 
 
 def named_orders(bench: Bench, more: Mapping[str, tuple[float, ...]] | None = None) -> dict[str, tuple[float, ...]]:
@@ -40,3 +43,9 @@ def sun(against_carrier: float, pins: int) -> str:
     times = against_carrier / pins
     coincides = times > 1.5 and abs(times - round(times)) < 1e-9
     return f"sun (order {against_carrier:.4g} also {round(times)} x crank against carrier)" if coincides else "sun"
+
+
+def apart_from_remark(name: str) -> tuple[str, str]:
+    """A figure's name without what ``sun`` says in it, and that as a line of its own: ``sun: order 120 also 3 x crank against carrier``."""
+    remark = REMARK.search(name)
+    return (name.replace(remark[0], ""), f"{name[: remark.start()]}: {remark[1]}") if remark else (name, "")

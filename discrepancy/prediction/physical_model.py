@@ -139,7 +139,7 @@ class PhysicalModel:
             for name, zero in self.zeros.items()
         ]  # fmt: skip
         if any(r.of_output for r in self.records):
-            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, of that of the base model"))
+            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, in times that of the base model"))
         return found
 
     def settle(self, values: Mapping[str, float]) -> bool:

@@ -64,6 +64,11 @@ export function tell(plot) {
   );
 }
 
+// With a byte order mark where a sign is outside ASCII: without it Excel takes UTF-8 for the machine's own code page.
+export function marked(text) {
+  return /[^ -~\t\r\n]/.test(text) ? `\ufeff${text}` : text;
+}
+
 // What the curves show as numbers: rows over the stretch that is seen, and all of it as a file.
 export function fillTable(plot) {
   if (!plot.behind.open) return;
@@ -87,7 +92,7 @@ export function fillTable(plot) {
         ),
       );
     const save = () => {
-      const text = [head.map((t) => `"${t}"`).join(","), ...inside.map((i) => [x[i], ...own.map((l) => l.y[i])].join(","))].join("\n");
+      const text = marked([head.map((t) => `"${t}"`).join(","), ...inside.map((i) => [x[i], ...own.map((l) => l.y[i])].join(","))].join("\n"));
       const link = h("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: "curves.csv" });
       link.click();
       URL.revokeObjectURL(link.href);

@@ -26,6 +26,7 @@ from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, written_alike
 from discrepancy.campaign.guess.same_unit import with_one_unit
+from discrepancy.campaign.guess.told_once import merged
 from discrepancy.campaign.guess.whose_angle import whose_angle
 from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
@@ -283,14 +284,6 @@ def unfitting(runs: Sequence[GuessedRun]) -> list[Doubt]:
               f"{shlex.join(['--names', run.name.pattern])} beside the others, corrected")
         for run in runs if not run.name.given and run.quantity.value in meant
     ]  # fmt: skip
-
-
-def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
-    """Equal doubts of several files once."""
-    places: dict[tuple[str, str], list[str]] = {}
-    for doubt in doubts:
-        places.setdefault((doubt.text, re.sub(r"'[^'=]*=QUANTITY'", "'FILES=QUANTITY'", doubt.remedy)), []).append(doubt.place)
-    return [Doubt(files[0] + (f" and {len(files) - 1} more" if len(files) > 1 else ""), text, remedy) for (text, remedy), files in places.items()]
 
 
 def another_named(named: str | None, wishes: Wishes) -> list[Doubt]:
