@@ -16,10 +16,11 @@ from discrepancy.problem import is_unplaced
 
 def without_place(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Conditions of such loops that no place was found for beside what is named; none where that is a position itself."""
-    if found.fits.members and POSITION in map(effect_of, found.fits.members[0].candidates):
+    conditions = unplaced_conditions(model)
+    if not conditions or (found.fits.members and POSITION in map(effect_of, found.fits.members[0].candidates)):
         return []
     places = model.unstated_places.taken(*named_by(found))
-    return [condition for condition in unplaced_conditions(model) if condition not in places]
+    return [condition for condition in conditions if condition not in places]
 
 
 def unplaced_conditions(model: PhysicalModel) -> list[str]:
@@ -30,7 +31,7 @@ def unplaced_conditions(model: PhysicalModel) -> list[str]:
 def named_by(found: Diagnosis) -> tuple[Effects, Mapping[str, float]]:
     """Effects as places are found by them, and values: of what is named, else of the model as it is."""
     member = found.fits.members[0] if found.fits.members else None
-    return (frozenset(), found.fits.space.base.values) if member is None else (named_amplitudes(member), member.fit.values)
+    return (frozenset(), found.nuisances) if member is None else (named_amplitudes(member), member.fit.values)
 
 
 def named_amplitudes(member: Refit) -> Effects:
@@ -40,6 +41,8 @@ def named_amplitudes(member: Refit) -> Effects:
 
 def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Where they are as measured beside what is named, with the line that states it; else that what is named may be the position."""
+    if not unplaced_conditions(model):
+        return []
     told = place_texts(model, *named_by(found))
     left = without_place(model, found)
     if left and found.fits.members:

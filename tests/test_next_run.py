@@ -30,7 +30,9 @@ def weighed(part, replicate, value):
 
 def model_of(records):
     bench = SimpleNamespace(rated_speed=190.0, rated_load=167.0)
-    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=lambda record, values: np.full(len(record.values), 2e-6))
+    unstated = SimpleNamespace(taken=lambda effects, values: {})
+    one = lambda record, values: np.full(len(record.values), 2e-6)
+    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=one, unstated_places=unstated)
 
 
 def space_of(records):
@@ -85,7 +87,7 @@ def answer_of(verdict, members=(), findings=(), rivals=()):
     fits = SimpleNamespace(members=[SimpleNamespace(name=m) for m in members], rivals=[SimpleNamespace(name=r) for r in rivals], space=None)
     local = {"findings": list(findings)}
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
-    diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local)
+    diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local, nuisances={})
     said = "that no effect of the catalogue explains"
     return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[])
 

@@ -134,7 +134,7 @@ def test_curves_know_where_their_samples_lie(benches):
 @pytest.mark.parametrize("direction", [1, -1])
 def test_few_nodes_suffice_for_the_orders_that_a_drive_shows(level: int, direction: int) -> None:
     nodes = banded_nodes(39, 40, level, direction)
-    assert len(nodes.angles) < len(angle_nodes(np.linspace(0.0, TURN, 5000), direction, 0, np.inf).angles) / 2
+    assert len(nodes.angles) < len(angle_nodes(np.linspace(0.0, TURN, 5000), direction, 0, always=True).angles) / 2
 
     def signal(angles: np.ndarray) -> np.ndarray:
         return 1.0 + np.cos(angles - 0.3) + 0.5 * np.sin(40 * angles) + 0.2 * np.cos(79 * angles + 1.0) - 0.1 * np.sin(156 * angles)

@@ -129,7 +129,8 @@ def test_a_setting_written_down_is_read_as_it_was(rv20e, data):
         text = str(expected)
     else:
         expected = data.draw(st.floats(variable.minimum, variable.maximum))
-        text = repr(expected)
+        # With its unit: without, a length or a speed that no reducer has is asked for it.
+        text = repr(expected) if variable.unit == "1" else f"{expected!r} {variable.unit}"
     owners = [t.by_name[variable.name] for t in tables if variable.path in t.by_path]
     assume(all(v.minimum <= expected <= v.maximum for v in owners))
     setting = parse_setting(f" {name} = {text} ", tables)

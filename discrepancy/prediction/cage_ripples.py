@@ -25,7 +25,7 @@ AnyCurve = TypeVar("AnyCurve", OverAngle, OverTorque)
 def errors_of_cages(bench: Bench, record: Record, values: Values, cages: Sequence[float]) -> list[Floats]:
     """Transmission error [rad] of the record's samples for several places of the cages [rad], finely enough to see where they are."""
     curves = [OverAngle(bench, record, "transmission_error", cage) for cage in cages]
-    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, math.inf)
+    nodes = angle_nodes(curves[0].places({}), curves[0].condition.direction, LEVEL_OF_A_RIPPLE, always=True)
     assert nodes is not None
     return [nodes.samples(curve.run(values, nodes), curve.places(values)) for curve in curves]
 

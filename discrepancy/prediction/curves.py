@@ -3,7 +3,6 @@
 A prediction is the base model's, at fine nodes and once, and what the values change in it, at nodes of their own.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -15,7 +14,7 @@ import numpy.typing as npt
 from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition, places_of_zero, zero_of
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
-from discrepancy.prediction.support import COARSEST, LASTING, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
 from discrepancy.prediction.torque_way import NEAR_NOTHING, entered, way
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
@@ -46,10 +45,6 @@ class Curve(Protocol[Nodes]):
 
     def nodes(self, level: int) -> Nodes | None:
         """Nodes for the record's samples; None where every sample is computed."""
-        ...
-
-    def lasting(self, level: int) -> Nodes | None:
-        """``nodes`` for the base model, whose run is there for all values that only move the samples."""
         ...
 
     def exact(self) -> "Curve[Nodes]":
@@ -100,12 +95,6 @@ class OverAngle:
         topology = self.bench.reducer.topology
         nodes = banded_nodes(topology.lobes, topology.pins, level, direction)
         return nodes if len(nodes.angles) < WORTHWHILE * len(angles) else None
-
-    def lasting(self, level: int) -> AngleNodes | None:
-        worthwhile = self.nodes(level)
-        if worthwhile is not None or level < 0 or self.condition.hours > 0.0:
-            return worthwhile
-        return angle_nodes(angles_of(self.bench, self.record, 0.0), self.condition.direction, level, LASTING)
 
     def places(self, values: Values) -> Floats:
         return angles_of(self.bench, self.record, zero_of(self.bench, self.record, values))
@@ -194,9 +183,6 @@ class OverTorque:
         # Where a way turns back is looked for sample by sample: once.
         return self.bench.kept(("nodes", torques.tobytes(), level), lambda: torque_nodes(torques, NEAR_NOTHING * self.bench.rated_load, max(level, 0)))
 
-    def lasting(self, level: int) -> TorqueNodes | None:
-        return self.nodes(level)
-
     def places(self, values: Values) -> Floats:
         return np.asarray(self.record.axes["torque"], np.float64)
 
@@ -231,19 +217,19 @@ def moved(angles: Floats, series: Floats, by: Floats | float) -> Floats:
 
 def signal(curve: Curve[Nodes], values: Values) -> Floats:
     """What the record's samples show with ``values``."""
+    fine, coarse = nodes_of(curve, {}), nodes_of(curve, values)
     changed, exact = bool(curve.bench.relevant(values, True)), curve.exact()
-    fine, coarse = nodes_of(curve, {}), nodes_of(curve, values) if changed else None
     places = curve.places(values)
-    if coarse is None and (changed or fine is None):
+    if coarse is None or (fine is None and not changed):
         direct = exact.directly(values)
         return curve.seen(lambda ahead: moved(places, direct, ahead))
-    change = None if coarse is None else curve.run(values, coarse) - curve.run({}, coarse)
+    change = curve.run(values, coarse) - curve.run({}, coarse) if changed else None
     # The base model's is had but once at every sample.
     base = exact.directly(curve.unchanged(values)) if fine is None else exact.run({}, fine)
 
     def at(ahead: Floats | float) -> Floats:
         found = moved(places, base, ahead) if fine is None else fine.samples(base, places + ahead)
-        return found if coarse is None or change is None else found + coarse.samples(change, places + ahead)
+        return found if change is None else found + coarse.samples(change, places + ahead)
 
     return curve.seen(at)
 
@@ -251,19 +237,15 @@ def signal(curve: Curve[Nodes], values: Values) -> Floats:
 def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:
     """Transmission error [rad] of the record's samples for several places of its angle 0 [rad], from one run."""
     curve = OverAngle(bench, record, "transmission_error")
-    nodes = angle_nodes(curve.places({}), curve.condition.direction, LEVEL_OF_A_PATTERN, math.inf)
+    nodes = angle_nodes(curve.places({}), curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
     assert nodes is not None
     series = curve.run(values, nodes)
     return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
 
 
 def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
-    """Nodes at which ``values`` change the signal smoothly enough; of the base model's signal where they change nothing."""
-    return nodes_for(curve, values)(level_of(curve, values))
-
-
-def nodes_for(curve: Curve[Nodes], values: Values) -> Callable[[int], Nodes | None]:
-    return curve.nodes if curve.bench.away(values) else curve.lasting
+    """Nodes at which ``values`` change the signal smoothly enough; of the signal itself where none are given."""
+    return curve.nodes(level_of(curve, values))
 
 
 def level_of(curve: Curve[Nodes], values: Values) -> int:
@@ -273,22 +255,22 @@ def level_of(curve: Curve[Nodes], values: Values) -> int:
     def change(nodes: Nodes) -> Floats:
         return curve.run(values, nodes) - (curve.run({}, nodes) if away else 0.0)
 
-    return fineness.level(curve.record, away, errors_by_level(nodes_for(curve, values), change)) if fineness else EVERY_SAMPLE
+    return fineness.level(curve.record, away, errors_by_level(curve, change)) if fineness else EVERY_SAMPLE
 
 
 def nodes_of_slopes(curve: Curve[Nodes], values: Values, base: Values, change: Callable[[Nodes], Floats]) -> Nodes | None:
     """Nodes for what ``values`` ``change`` next to ``base`` to first order, which jumps where the signal has a kink."""
     fineness = curve.bench.fineness
     if fineness and fineness.rough:
-        return curve.nodes(fineness.level_of_slopes(curve.record, curve.bench.away({**base, **values}), errors_by_level(curve.nodes, change)))
+        return curve.nodes(fineness.level_of_slopes(curve.record, curve.bench.away({**base, **values}), errors_by_level(curve, change)))
     return curve.nodes(max(level_of(curve, {**base, **values}), LEVEL_OF_SLOPES))
 
 
-def errors_by_level(nodes_at: Callable[[int], Nodes | None], change: Callable[[Nodes], Floats]) -> ErrsAt:
+def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> ErrsAt:
     """What interpolation errs of a ``change``, and its size."""
 
     def errs(level: int) -> tuple[float, float] | None:
-        nodes = nodes_at(level)
+        nodes = curve.nodes(level)
         if nodes is None:
             return None
         # One turn is like the others.

@@ -43,8 +43,6 @@ ROUNDED = 2.0 * np.pi / 16
 REVERSAL = 0.02
 # Nodes must be fewer than this share of the samples, or each sample is computed itself.
 WORTHWHILE = 0.7
-# Those of the base model are there for every place of the angle's zero that a search comes to: so many samples' worth is soon saved.
-LASTING = 3.0
 # By how much half the distance makes the error less: between kinks (1.5 powers) and smooth.
 HALVING = 2.8
 
@@ -145,8 +143,8 @@ def scattered(count: Floats) -> Floats:
     return found
 
 
-def angle_nodes(angles: Floats, direction: int, level: int, most: float = WORTHWHILE) -> SplineNodes | None:
-    """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where they are more than the share ``most`` of the samples."""
+def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False) -> SplineNodes | None:
+    """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more, unless ``always``."""
     if level >= len(PER_TURN):
         return None
     distance = 2.0 * np.pi / PER_TURN[level]
@@ -154,7 +152,7 @@ def angle_nodes(angles: Floats, direction: int, level: int, most: float = WORTHW
     high = ROUNDED * np.ceil((float(angles.max()) + BEYOND) / ROUNDED)
     count = np.arange(np.floor(low / distance), np.ceil(high / distance) + 1.0)
     nodes = distance * scattered(count)
-    if len(nodes) > most * len(angles):
+    if len(nodes) > WORTHWHILE * len(angles) and not always:
         return None
     return SplineNodes(nodes[::direction])
 
