@@ -72,8 +72,9 @@ def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[
         return []
     effect, group, space = every_effect()[effect_of(candidate)], group_of(candidate), found.fits.space
     chosen, topology = choices(effect, group), model.file.reducer.topology
-    own = [p.variable.name for p in groups(effect)[group][0]]
-    fitted = dict(alone[0].fit.values)
+    # What a campaign cannot show of an effect was not fitted: it is off.
+    off = {p.variable.name: p.variable.start for p in groups(effect)[group][0]}
+    own, fitted = list(off), off | alone[0].fit.values
     rest = {name: value for name, value in fitted.items() if name not in own}
     shows_the_same = as_shown(space, fitted, rest)
     here = current(chosen, model)

@@ -78,6 +78,11 @@ def test_a_place_that_shows_otherwise_is_not_named(space):
     assert other == "crank 2 at disc 1 or crank 1 at disc 2, which look alike" and "crank 2 at disc 2" not in other
 
 
+def test_what_a_campaign_cannot_show_of_an_effect_is_off(space):
+    """Input torques at few loads do not show a lobe's phase: that was not fitted, and asking for it was a KeyError."""
+    assert told(space, "crank_lobe_errors.crank_1", {"lobe_throw_error_1": 4e-6}) == "crank 1 at disc 1 or crank 2 at disc 2, which look alike"
+
+
 def test_what_has_no_choice_of_parts_has_no_place(space):
     assert place_of("drag", space.model) == place_of("sensor_gain.input_torque", None) == "" and told(space, "pin_position_errors.runout", {}) == "runout"
     assert place_of("hole_position_errors.carrier", None) == "carrier at crank 1" and place_of("race_spall", None) == "crank 1 at disc 1"
