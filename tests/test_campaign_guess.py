@@ -35,9 +35,12 @@ def test_what_was_written_is_read(tmp_path, kind):
     what = WRITTEN[kind][0]
     path = write(tmp_path, kind)
     proposal = propose([path], Wishes("RV20E-121", conditions={"hours": "0 h"}))
-    record = checked(proposal).records[0]
+    campaign = checked(proposal)
+    record = campaign.records[0]
     quantity, curves = CURVES[what]
     assert record.quantity == quantity
+    # Nobody knows where an encoder's zero is.
+    assert [n.parameter.name for n in campaign.nuisances] == ["encoder_phase"] * (quantity == "transmission_error")
     assert record.values == pytest.approx(curves["value"], abs=2e-6 * np.abs(curves["value"]).max() + 6e-6 * WRITTEN[kind][4][1])
     for axis, values in curves.items():
         if axis != "value":

@@ -24,6 +24,9 @@ def name_of(folder: Path) -> str:
     return name_of_folder(folder.resolve().name)
 
 
+PHASE = ('unit = "deg"', "lower = -180", "upper = 180", 'per = "mounting"')
+
+
 def campaign_text(proposal: Proposal, folder: Path) -> str:
     """``folder``: where it will stand; paths of data and reducer count from there."""
     data = os.path.relpath(proposal.data, folder.resolve())
@@ -41,6 +44,9 @@ def campaign_text(proposal: Proposal, folder: Path) -> str:
         lines += ["", *run_lines(run, proposal.data)]
     if whose := proposal.angle_of:
         lines += ["", f"[quantities.{ERROR}]", f"{f'angle_of = {toml(whose.value)}':<39} # {whose.reason}"]
+    if any(run.guessed.quantity.value == ERROR for run in proposal.runs):
+        # Nobody sets an encoder to 0 where the model begins; where its pattern hardly shows it would be taken to stand there.
+        lines += ["", "[nuisances.encoder_phase]                # where angles count from: found", *PHASE]
     return "\n".join(lines) + "\n"
 
 
