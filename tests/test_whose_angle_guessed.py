@@ -46,6 +46,21 @@ def test_nothing_is_doubted_that_no_load_or_a_second_encoder_tells(bench):
     assert proposal.angle_of.sure and TEXT not in [doubt.text for doubt in proposal.doubts]
 
 
+@pytest.mark.parametrize(("turned", "sure"), [(1.0, True), (-1.0, True), (0.0, False)])
+def test_steps_as_uneven_as_the_error_are_the_output_s(bench, turned, sure):
+    """Sampled at equal times, with the digits and the noise that a bench writes."""
+    rng = np.random.default_rng(4)
+    for path in bench.glob("*.csv"):
+        table = pd.read_csv(path)
+        angle, error = table.columns
+        noise = rng.normal(0.0, 0.2, len(table))
+        table[angle] = np.round(table[angle] + turned * (table[error] + noise) / 3600.0, 5)
+        table.to_csv(path, index=False)
+    proposal = propose([bench], Wishes("RV20E-121"))
+    assert (proposal.angle_of.value, proposal.angle_of.sure) == ("output", sure)
+    assert (TEXT in [doubt.text for doubt in proposal.doubts]) != sure and ("uneven" in proposal.angle_of.reason) == sure
+
+
 def test_an_option_that_nothing_follows_is_told(tmp_path, bench):
     with pytest.raises(InputFault, match="--angle-of motor"):
         Wishes(angle_of="motor")

@@ -21,6 +21,7 @@ from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
+from discrepancy.campaign.guess.uneven import is_uneven
 from discrepancy.campaign.guess.wishes import Wishes, of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
 from discrepancy.held_names import HELD, LOCKED_AT
@@ -87,6 +88,8 @@ class GuessedRun:
     levels: Mapping[str, float]
     # Above the table, as they stand there.
     lines: tuple[str, ...]
+    # Whether steps of the angle are as uneven as the value says that the output turns.
+    uneven: bool
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -142,7 +145,8 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
         doubts += side_by_side(path, entries[VALUE].header, left_out)
     levels = {role: held_level(table.columns[e.column.value]) * float(e.keys.get("scale", 1.0)) for role, e in entries.items() if role in FACTOR_KEYS}
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *factor_doubts), headers, left_out,
-                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels, table.above)  # fmt: skip
+                      frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels, table.above,
+                      {"angle", VALUE} <= entries.keys() and is_uneven(*(table.columns[entries[role].column.value] for role in ("angle", VALUE))))  # fmt: skip
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:

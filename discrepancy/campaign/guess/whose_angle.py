@@ -10,6 +10,7 @@ from discrepancy.problem import ERROR
 
 # Harmless where it is not so: the share of the lag that is found is none then.
 REASON = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
+UNEVEN = "its steps are as uneven as the error says that the output turns: of an encoder there, which lags under load"
 TEXT = f'angle_of = "{OUTPUT}" is assumed: of an encoder there, which lags under load; no head says for certain whose the angle is'
 IDLE_REMEDY = f"--quantity 'FILES={ERROR}'"
 REMEDY = f"--angle-of {INPUT} if it is the input's over the ratio"
@@ -28,7 +29,8 @@ def beside_input(run: GuessedRun) -> bool:
 def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]], wishes: Wishes) -> tuple[Guess[str] | None, list[Doubt]]:
     """One answer for all, None where no run stands over such an angle, and a doubt for each file whose angle may be either's.
 
-    No doubt is left where both encoders are read or named, or where nothing loads the output: it lags by nothing then.  ``runs``: condition and run.
+    No doubt is left where both encoders are read or named, where its steps tell, or where nothing loads the output: it lags by nothing then.
+    ``runs``: condition and run.
     """
     over = [(condition, run) for condition, run in runs if over_output(run)]
     if not over:
@@ -39,5 +41,7 @@ def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str,
     if all(over_ratio(run.columns["angle"].header) for _, run in over):
         return Guess(INPUT, "its name says the input's over the ratio"), []
     loaded = [run for condition, run in over if conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
-    either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run)]
+    if all(run.uneven for _, run in over):
+        return Guess(OUTPUT, UNEVEN), []
+    either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run) and not run.uneven]
     return Guess(OUTPUT, REASON, not either), [Doubt(run.path.name, TEXT, REMEDY) for run in either]
