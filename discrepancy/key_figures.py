@@ -28,6 +28,8 @@ STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mea
 # reducer stiffer unloading.  The width is the mean that ``rvwear hysteresis`` calls
 # loop_mean_width_arcmin; that at no torque, which it says too, is of the clearances as well, and of how closely a bench's torques lie.
 FROM = 0.5
+# Neighbours that are further apart than so many usual steps of a way have something between them that was left out.
+GAP = 3.0
 # So many draws of noise where nothing is repeated.
 DRAWS = 25
 # The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
@@ -203,6 +205,13 @@ def of_loop(torque: Floats, rated: float) -> Reading:
     up, down = Branch.of(torque, np.flatnonzero(rising)), Branch.of(torque, np.flatnonzero(~rising))
     small = LOST_MOTION_SHARE * rated
 
+    def both(at: Floats) -> npt.NDArray[np.bool_]:
+        """Whether both ways were measured at torques ``at`` [N m], and not left out there."""
+        measured = np.ones(len(at), bool)
+        for branch in (up, down):
+            measured &= branch is not None and branch.has(at)
+        return measured
+
     def read(turning: Floats) -> dict[str, float]:
         slope = {name: float(weights @ turning[rows]) for name, (rows, weights) in slopes.items()}
         positive = {name: value for name, value in slope.items() if value > 0.0}
@@ -214,11 +223,12 @@ def of_loop(torque: Floats, rated: float) -> Reading:
             return found
         low, high = max(up.torque[0], down.torque[0]), min(up.torque[-1], down.torque[-1])
         above, below = up.means(turning), down.means(turning)
-        if low <= -small and high >= small:
+        if low <= -small and high >= small and both(np.array([-small, small])).all():
             middle = [0.5 * (np.interp(t, up.torque, above) + np.interp(t, down.torque, below)) for t in (-small, small)]
             found[LOST_MOTION] = float(middle[1] - middle[0])
         at = width_torques(most)
         at = at[(low <= at) & (at <= high)]
+        at = at[both(at)]
         if len(at) > 1:
             found[WIDTH] = float(np.mean(np.interp(at, down.torque, below) - np.interp(at, up.torque, above)))
         return found
@@ -249,6 +259,13 @@ class Branch:
             return None
         levels, place = np.unique(torque[rows], return_inverse=True)
         return cls(levels, rows, place, np.bincount(place))
+
+    def has(self, at: Floats) -> npt.NDArray[np.bool_]:
+        """Whether torques ``at`` [N m] lie between neighbours no further apart than is usual on this way: a line through what was left out is no reading."""
+        steps = np.diff(self.torque)
+        after = np.clip(np.searchsorted(self.torque, at), 1, len(steps))
+        found: npt.NDArray[np.bool_] = steps[after - 1] <= GAP * np.median(steps)
+        return found
 
     def means(self, turning: Floats) -> Floats:
         """Turning over the torques, means where one is met again."""
