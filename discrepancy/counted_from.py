@@ -17,7 +17,7 @@ def zeros_of(steps: Iterable[Mapping[str, Any]]) -> dict[tuple[str, str], float]
     return {
         (str(step.get("campaign", "")), name.removeprefix(ZERO).rstrip("]")): float(zero)
         for step in steps if step.get("kept", True)
-        for name, zero in step.get("nuisances", {}).items() if name.startswith(ZERO)
+        for name, zero in {**step.get("nuisances", {}), **step.get("positions", {})}.items() if name.startswith(ZERO)
     }  # fmt: skip
 
 

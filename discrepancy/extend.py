@@ -20,6 +20,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure
+from discrepancy.locked_zeros import positions_at_zero
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -117,6 +118,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "training_before": fitted.before if fitted else None, "training_after": fitted.after if fitted else None,
         "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters},
+        "positions": {name: at / model.bench.ratio for name, at in positions_at_zero(model, fit.fit).items()},
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}

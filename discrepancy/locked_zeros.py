@@ -19,13 +19,15 @@ UNFIT = 3.0
 
 def zero_texts(model: PhysicalModel, space: Workspace, fit: Fit) -> list[str]:
     """A sentence for each mounting in which curves and stated positions of the input count from one zero that ``fit`` has far from the model's."""
-    effects = model.cages.effects(model.standing() | fit.values)
-    found = []
-    for name in model.locked_places.names:
-        # Loops tell in which wave of the pattern; the fit tells where in it.
-        turned = fit.values[name] * model.bench.ratio + model.locked_waves.taken(effects).get(name, 0) * model.locked_waves.wave
-        found.append(zero_text(name, turned, left_of(space, fit, name) > UNFIT))
+    found = [zero_text(name, at, left_of(space, fit, name) > UNFIT, model.unstated_places.period) for name, at in positions_at_zero(model, fit).items()]
     return [text for text in found if text]
+
+
+def positions_at_zero(model: PhysicalModel, fit: Fit) -> dict[str, float]:
+    """By zero (``angle_zero[1]``) the position of the model's input [rad] at which positions that a campaign states are 0; of mountings that have such."""
+    waves = model.locked_waves.taken(model.cages.effects(model.standing() | fit.values))
+    # Loops tell in which wave of the pattern; the fit tells where in it.
+    return {name: fit.values[name] * model.bench.ratio + waves.get(name, 0) * model.locked_waves.wave for name in model.locked_places.names}
 
 
 def left_of(space: Workspace, fit: Fit, name: str) -> float:
@@ -34,14 +36,15 @@ def left_of(space: Workspace, fit: Fit, name: str) -> float:
     return float(np.sqrt(np.mean(np.concatenate(rows) ** 2))) if rows else 0.0
 
 
-def zero_text(name: str, turned: float, unfit: bool) -> str:
-    """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's; empty where that is near.  One that is ``unfit`` has no number: a
+def zero_text(name: str, turned: float, unfit: bool, period: float) -> str:
+    """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's, to whole turns of the cranks, the ``period``, after which positions are
+    much alike (after one of the input they are not); empty where that is near.  One that is ``unfit`` has no number: a
     large effect hides the pattern, and where that is found then, near or far, says nothing."""
     counted = f"where the input was locked is counted from the zero of the transmission errors of mounting {name.partition('[')[2].rstrip(']')}"
     if unfit:
         return (f"{counted}; that zero is of a model which does not fit yet (they are off by more than {UNFIT:g} times their noise) and may move when what is"
                 " missing is found: change nothing for it before")  # fmt: skip
-    degrees = math.degrees(math.remainder(turned, 2.0 * math.pi))
+    degrees = math.degrees(math.remainder(turned, period))
     if abs(degrees) < TURNED:
         return ""
     return (f"{counted}, found {degrees:.0f} deg of the input from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT} (a diagnosis"

@@ -83,6 +83,7 @@ class StepEntry(Strict):
     held_out_before: float | None = None
     held_out_after: float | None = None
     nuisances: dict[str, float] = {}
+    positions: dict[str, float] = {}
     signals: list[SignalEntry] = []
     kept: bool = True
 
@@ -281,6 +282,8 @@ def save_model(model: ModelFile, path: Path) -> None:
 def written_step(step: dict[str, Any]) -> Table:
     """A step as the file has it; its calibrated numbers have SI units, of which nothing else there would tell."""
     item: Table = tomlkit.item(told_of(step))
+    if item.get("positions"):
+        item["positions"].comment("where positions of the input count from: output angle of the model, in rad")
     if item.get("nuisances"):
         item["nuisances"].comment("calibrated, in SI units: angles in rad")
     return item
