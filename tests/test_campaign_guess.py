@@ -412,8 +412,8 @@ def test_a_reducer_named_above_the_tables_is_proposed(tmp_path, capsys):
     assert main(["campaign", "from", str(file), "--output", str(tmp_path / "made")]) == 0
     assert "reducer RV20E-121: as lines above the tables say" in capsys.readouterr().out
     assert load_campaign(tmp_path / "made").reducer.name == "RV20E-121"
-    # The output's angle by its name, with the input's beside it: nobody has to be asked.
-    assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "output"
+    # By its name the output's, but a multiple of the input's beside it to the last digit: nobody has to be asked.
+    assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "input"
     said = ("i=121", ", ratio 121", " 1:121", "; i = 121", ", Übersetzung 121", ", rapport de réduction: 1/121", "; rapporto di riduzione;121", " 减速比：121")
     assert {named_in([f"Riduttore: RV-20E {ratio}"]) for ratio in said} == {"RV20E-121"} and named_in(["RV20E 1:121"]) == "RV20E-121"
     assert named_in(["RV-20E i=81, 121 runs"]) is None and named_in(["RV-20E, relación 1:81"]) is None and named_in(["BX-40E i=121"]) == "BX-40E"

@@ -61,6 +61,19 @@ def test_steps_as_uneven_as_the_error_are_the_output_s(bench, turned, sure):
     assert (TEXT in [doubt.text for doubt in proposal.doubts]) != sure and ("uneven" in proposal.angle_of.reason) == sure
 
 
+@pytest.mark.parametrize(("turned", "value"), [(0.0, "input"), (1.0, "output")])
+def test_an_angle_of_the_input_beside_it_tells_whether_the_output_s_was_measured(bench, turned, value):
+    """An "output angle" that is the input's over the ratio to the last digit knows nothing of the error beside it."""
+    for path in bench.glob("*.csv"):
+        table = pd.read_csv(path)
+        _, error = table.columns
+        of_input = pd.DataFrame({"Input angle (rev)": (121.0 * ANGLE / (2.0 * np.pi)).round(4), "Output angle (deg)": (np.degrees(ANGLE) + turned * table[error] / 3600.0).round(5)})
+        of_input.assign(TE=table[error]).rename(columns={"TE": "TE (arcsec)"}).to_csv(path, index=False)
+    proposal = propose([bench], Wishes("RV20E-121"))
+    assert (proposal.angle_of.value, proposal.angle_of.sure) == (value, True)
+    assert {record.of_output for record in checked(proposal).records} == {value == "output"}
+
+
 def test_an_option_that_nothing_follows_is_told(tmp_path, bench):
     with pytest.raises(InputFault, match="--angle-of motor"):
         Wishes(angle_of="motor")

@@ -21,7 +21,7 @@ from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
-from discrepancy.campaign.guess.uneven import is_uneven
+from discrepancy.campaign.guess.uneven import is_of_output
 from discrepancy.campaign.guess.wishes import Wishes, of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
 from discrepancy.held_names import HELD, LOCKED_AT
@@ -88,8 +88,8 @@ class GuessedRun:
     levels: Mapping[str, float]
     # Above the table, as they stand there.
     lines: tuple[str, ...]
-    # Whether steps of the angle are as uneven as the value says that the output turns.
-    uneven: bool
+    # Whether the angle is the output's by how it turns, or the input's over the ratio; None where that cannot be seen.
+    of_output: bool | None
 
 
 def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
@@ -146,7 +146,21 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     levels = {role: held_level(table.columns[e.column.value]) * float(e.keys.get("scale", 1.0)) for role, e in entries.items() if role in FACTOR_KEYS}
     return GuessedRun(path, quantity, entries, tags, dict(table.reading), name, factors, repeated, (*doubts, *more_doubts, *factor_doubts), headers, left_out,
                       frozenset(key for key, guess in factors.items() if guess.reason.startswith(ABOVE)), actual, levels, table.above,
-                      {"angle", VALUE} <= entries.keys() and is_uneven(*(table.columns[entries[role].column.value] for role in ("angle", VALUE))))  # fmt: skip
+                      of_output_by_steps(table, columns, entries))  # fmt: skip
+
+
+def of_output_by_steps(table: Table, columns: Sequence[Column], entries: Mapping[str, Entry]) -> bool | None:
+    """See ``GuessedRun.of_output``: of an error over an angle, beside a column of the input's angle where there is one."""
+    found = [entries[role] for role in ("angle", VALUE) if role in entries]
+    if len(found) < 2:
+        return None
+    try:
+        angle, error = (table.columns[entry.column.value] * conversion(entry.unit.value, "rad")[0] for entry in found)
+    except UnitError:
+        # A value that is no angle, or of which nobody knows the unit.
+        return None
+    beside = next((table.columns[c.name] for c in columns if c.meaning == "input_angle"), None)
+    return is_of_output(angle, error, beside)
 
 
 def given_roles(columns: list[Column], stated: Mapping[str, str]) -> list[Column]:

@@ -11,6 +11,7 @@ from discrepancy.problem import ERROR
 # Harmless where it is not so: the share of the lag that is found is none then.
 REASON = "an encoder there lags under load; \"input\" if it is the input's over the ratio"
 UNEVEN = "its steps are as uneven as the error says that the output turns: of an encoder there, which lags under load"
+EVEN = "the input's angle beside it is a multiple of it, with no error between them: it is the input's over the ratio"
 TEXT = f'angle_of = "{OUTPUT}" is assumed: of an encoder there, which lags under load; no head says for certain whose the angle is'
 IDLE_REMEDY = f"--quantity 'FILES={ERROR}'"
 REMEDY = f"--angle-of {INPUT} if it is the input's over the ratio"
@@ -41,7 +42,8 @@ def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str,
     if all(over_ratio(run.columns["angle"].header) for _, run in over):
         return Guess(INPUT, "its name says the input's over the ratio"), []
     loaded = [run for condition, run in over if conditions[condition].get("load_torque", "").split(" ")[0] != "0"]
-    if all(run.uneven for _, run in over):
-        return Guess(OUTPUT, UNEVEN), []
-    either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run) and not run.uneven]
+    steps = {run.of_output for _, run in over}
+    if len(steps) == 1 and None not in steps:
+        return Guess(OUTPUT, UNEVEN) if True in steps else Guess(INPUT, EVEN), []
+    either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run) and run.of_output is None]
     return Guess(OUTPUT, REASON, not either), [Doubt(run.path.name, TEXT, REMEDY) for run in either]
