@@ -60,9 +60,12 @@ def place_texts(model: PhysicalModel, effects: Effects, values: Mapping[str, flo
     for condition, place in model.unstated_places.taken(effects, values).items():
         # From where angles count by this fit, as a stated position does.
         place -= model.locked_places.zero_moved(next(r for r in model.records if r.condition == condition and is_unplaced(r)), values)
-        angle, turn = round(math.degrees(math.remainder(place, period))), math.degrees(period)
+        # Half a turn of the cranks on discs have changed places: where nothing is off about one of them that is as good.
+        angle, other = (round(math.degrees(math.remainder(place + further, period))) for further in (0.0, 0.5 * period))
+        turn = math.degrees(period)
         told.append(
-            f"loops in {condition}: {QUESTION}; beside {beside} they are as measured at about {angle} deg of the input, not as the mean over a turn of the"
-            f' cranks ({turn:.0f} deg, after which they are much alike); if that is where it was state {LOCKED_AT} = "{angle} deg" in the condition'
+            f"loops in {condition}: {QUESTION}; beside {beside} they are as measured at about {angle} deg of the input (or {other} deg, if nothing is off about"
+            f" one disc alone), not as the mean over a turn of the cranks ({turn:.0f} deg, after which they are much alike); if that is where it was state"
+            f' {LOCKED_AT} = "{angle} deg" in the condition'
         )
     return told
