@@ -28,7 +28,7 @@ STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mea
 # reducer stiffer unloading.  The width is the mean that ``rvwear hysteresis`` calls
 # loop_mean_width_arcmin; that at no torque, which it says too, is of the clearances as well, and of how closely a bench's torques lie.
 FROM = 0.5
-# Neighbours that are further apart than so many usual steps of a way have something between them that was left out.
+# Neighbours that are further apart than so many of the steps about them have something between them that was left out.
 GAP = 3.0
 # So many draws of noise where nothing is repeated.
 DRAWS = 25
@@ -261,10 +261,11 @@ class Branch:
         return cls(levels, rows, place, np.bincount(place))
 
     def has(self, at: Floats) -> npt.NDArray[np.bool_]:
-        """Whether torques ``at`` [N m] lie between neighbours no further apart than is usual on this way: a line through what was left out is no reading."""
+        """Whether torques ``at`` [N m] lie between neighbours hardly further apart than those about them are: a line through what was left out is none."""
         steps = np.diff(self.torque)
-        after = np.clip(np.searchsorted(self.torque, at), 1, len(steps))
-        found: npt.NDArray[np.bool_] = steps[after - 1] <= GAP * np.median(steps)
+        gap = np.clip(np.searchsorted(self.torque, at) - 1, 0, len(steps) - 1)
+        about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
+        found: npt.NDArray[np.bool_] = (steps[gap] <= GAP * about) | (len(steps) == 1)
         return found
 
     def means(self, turning: Floats) -> Floats:
