@@ -203,14 +203,9 @@ def of_loop(torque: Floats, rated: float) -> Reading:
             # Turning times these is the slope of the straight line through it.
             slopes[name] = rows, level / float(level @ level)
     up, down = Branch.of(torque, np.flatnonzero(rising)), Branch.of(torque, np.flatnonzero(~rising))
-    small = LOST_MOTION_SHARE * rated
-
-    def both(at: Floats) -> npt.NDArray[np.bool_]:
-        """Whether both ways were measured at torques ``at`` [N m], and not left out there."""
-        measured = np.ones(len(at), bool)
-        for branch in (up, down):
-            measured &= branch is not None and branch.has(at)
-        return measured
+    small, wide = LOST_MOTION_SHARE * rated * np.array([-1.0, 1.0]), width_torques(most)
+    has_small = both(up, down, small).all()
+    wide = wide[both(up, down, wide)]
 
     def read(turning: Floats) -> dict[str, float]:
         slope = {name: float(weights @ turning[rows]) for name, (rows, weights) in slopes.items()}
@@ -221,16 +216,12 @@ def of_loop(torque: Floats, rated: float) -> Reading:
             found[STIFFNESS] = 1.0 / float(np.mean(loading or list(positive.values())))
         if up is None or down is None:
             return found
-        low, high = max(up.torque[0], down.torque[0]), min(up.torque[-1], down.torque[-1])
         above, below = up.means(turning), down.means(turning)
-        if low <= -small and high >= small and both(np.array([-small, small])).all():
-            middle = [0.5 * (np.interp(t, up.torque, above) + np.interp(t, down.torque, below)) for t in (-small, small)]
+        if has_small:
+            middle = [0.5 * (np.interp(t, up.torque, above) + np.interp(t, down.torque, below)) for t in small]
             found[LOST_MOTION] = float(middle[1] - middle[0])
-        at = width_torques(most)
-        at = at[(low <= at) & (at <= high)]
-        at = at[both(at)]
-        if len(at) > 1:
-            found[WIDTH] = float(np.mean(np.interp(at, down.torque, below) - np.interp(at, up.torque, above)))
+        if len(wide) > 1:
+            found[WIDTH] = float(np.mean(np.interp(wide, down.torque, below) - np.interp(wide, up.torque, above)))
         return found
 
     return read
@@ -262,15 +253,25 @@ class Branch:
 
     def has(self, at: Floats) -> npt.NDArray[np.bool_]:
         """Whether torques ``at`` [N m] lie between neighbours hardly further apart than those about them are: a line through what was left out is none."""
+        if len(self.torque) < 2:
+            return np.zeros(len(at), bool)
         steps = np.diff(self.torque)
         gap = np.clip(np.searchsorted(self.torque, at) - 1, 0, len(steps) - 1)
         about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
-        found: npt.NDArray[np.bool_] = (steps[gap] <= GAP * about) | (len(steps) == 1)
+        inside = (self.torque[0] <= at) & (at <= self.torque[-1])
+        found: npt.NDArray[np.bool_] = inside & ((steps[gap] <= GAP * about) | (len(steps) == 1))
         return found
 
     def means(self, turning: Floats) -> Floats:
         """Turning over the torques, means where one is met again."""
         return np.bincount(self.place, turning[self.rows]) / self.count
+
+
+def both(up: Branch | None, down: Branch | None, at: Floats) -> npt.NDArray[np.bool_]:
+    """Whether both ways were measured at torques ``at`` [N m], and not left out there."""
+    if up is None or down is None:
+        return np.zeros(len(at), bool)
+    return up.has(at) & down.has(at)
 
 
 # transmission error -----------------------------------------------------------------------

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from discrepancy.campaign.unplaced import QUESTION, REMEDY
+from discrepancy.campaign.unplaced import QUESTION, REMEDY, unplaced_in
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.refit.refit import Refit
@@ -16,16 +16,11 @@ from discrepancy.problem import is_unplaced
 
 def without_place(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Conditions of such loops that no place was found for beside what is named; none where that is a position itself."""
-    conditions = unplaced_conditions(model)
+    conditions = unplaced_in(model.records)
     if not conditions or (found.fits.members and POSITION in map(effect_of, found.fits.members[0].candidates)):
         return []
     places = model.unstated_places.taken(*named_by(found))
     return [condition for condition in conditions if condition not in places]
-
-
-def unplaced_conditions(model: PhysicalModel) -> list[str]:
-    """Those of such loops."""
-    return list(dict.fromkeys(record.condition for record in model.records if is_unplaced(record)))
 
 
 def named_by(found: Diagnosis) -> tuple[Effects, Mapping[str, float]]:
@@ -41,7 +36,7 @@ def named_amplitudes(member: Refit) -> Effects:
 
 def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Where they are as measured beside what is named, with the line that states it; else that what is named may be the position."""
-    if not unplaced_conditions(model):
+    if not unplaced_in(model.records):
         return []
     told = place_texts(model, *named_by(found))
     left = without_place(model, found)

@@ -225,7 +225,7 @@ def checked_campaign(folder: Folder) -> dict[str, Any]:
         return {"fault": str(fault).replace(f"{folder.root}/", "")}
     return {
         "campaign": {"name": campaign.name, "quantities": list(check.summary), "conditions": list(campaign.conditions)},
-        "findings": [as_told(f) | ({"cell": [unplaced_in(campaign)[0], LOCKED_AT]} if f.code == CODE else {}) for f in check.findings],
+        "findings": [as_told(f) | ({"cell": [unplaced_in(campaign.records)[0], LOCKED_AT]} if f.code == CODE else {}) for f in check.findings],
     }
 
 

@@ -18,13 +18,13 @@ from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault
 from fmu_src.file_name import name_of_folder
 
+# Of ``nuisances.encoder_phase``: anywhere in a turn, and elsewhere at each mounting.
+PHASE = ('unit = "deg"', "lower = -180", "upper = 180", 'per = "mounting"')
+
 
 def name_of(folder: Path) -> str:
     """Of the folder, in the signs that a campaign's name may have."""
     return name_of_folder(folder.resolve().name)
-
-
-PHASE = ('unit = "deg"', "lower = -180", "upper = 180", 'per = "mounting"')
 
 
 def campaign_text(proposal: Proposal, folder: Path) -> str:
