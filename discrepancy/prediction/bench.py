@@ -5,13 +5,14 @@ Runs are kept, so that parameters that a run does not depend on cost nothing.
 
 import copy
 import math
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
 
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE, Lives
+from discrepancy.prediction.stations import Stations
 from discrepancy.prediction.twins import OF_CHANGE, Places, Twins, corners, places_of, same
 from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
@@ -40,6 +41,8 @@ TORQUE_STEP, ROUGH_TORQUE_STEP = 1.0 / 80.0, 1.0 / 16.0
 FEW_RUNS = 50
 # From fewer than these, one is no small share of them.
 LEAST_POSITIONS = 4
+# Angles [rad], as many, of runs whose equilibria are near enough to start from: of values that are said to be near, and of the base model.
+Starts = tuple[Floats, Floats]
 # Turning of the cranks [rad] between two equilibria that is not divided.
 LARGEST_CRANK_STEP = 1e3
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
@@ -56,6 +59,8 @@ class Bench(Lives):
         self.zeros: dict[str, float] = {}
         # How finely runs are computed for a campaign's samples; None: at every sample.
         self.fineness: Fineness | None = None
+        # By a record's angles those at which it is computed, if others share them.
+        self.stations: Mapping[bytes, Stations] = {}
         self.twins = Twins()
 
     @cached_property
@@ -79,14 +84,20 @@ class Bench(Lives):
         """What a prediction of this record may err; 0 where nothing is known of its noise."""
         return self.fineness.allowed.get((ERROR if record.quantity == ORDERS else record.quantity, record.condition), 0.0) if self.fineness else 0.0
 
-    def beside(self, key: tuple[Hashable, ...], base: Callable[[], tuple[Floats, Floats]]) -> Floats:
-        """Equilibria where the run of ``key`` (kind, condition, relevant values, ...) starts: those of one whose values are said to be near, if
-        it was made, or of the ``base`` model's."""
-        kind, condition, relevant, *rest = key
+    def beside(self, key: tuple[Hashable, ...], base: Callable[[], tuple[Floats, Floats]], ways: Sequence[Floats] = ()) -> Floats:
+        """Equilibria where the run of ``key`` (kind, condition, relevant values, way, ...) starts: those of one whose values are said to be near, or
+        of the same values, along the same way or one of other ``ways``, if it was made; else of the ``base`` model's."""
+        kind, condition, relevant, own_way, *rest = key
         assert isinstance(condition, Condition)
         near = self.relevant(NEAR.get() or {}, condition.hours > 0.0)
-        found = self.runs.peek((kind, condition, near, *rest)) if near and near != relevant else None
-        return found[1] if isinstance(found, tuple) else base()[1]
+        for way in (own_way, *(other.tobytes() for other in ways)):
+            for values in (near, relevant) if near else (relevant,):
+                like = (kind, condition, values, way, *rest)
+                found = self.runs.peek(like) if like != key else None
+                if isinstance(found, tuple):
+                    equilibria: Floats = found[1]
+                    return equilibria
+        return base()[1]
 
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
@@ -99,30 +110,32 @@ class Bench(Lives):
         """
         return self.running_places(condition, values, angles, cage)[0]
 
-    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
+    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0,
+               starts: Starts | None = None) -> Floats:  # fmt: skip
         """One column of ``running``, which may be that of another condition under which it is the same."""
         k = coupled.COLUMNS.index(name)
 
         def repeats(other: Condition, chosen: Places) -> bool:
-            known, places = self.running_places(other, values, angles, cage)
+            known, places = self.running_places(other, values, angles, cage, starts)
             plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=LARGEST_CRANK_STEP, z=places[0])
             seen, durations = np.zeros((len(chosen), len(coupled.COLUMNS))), self.durations(condition, angles[chosen])
             status = coupled.sweep(plants, self.templates[1], durations, seen, False, places[chosen], places[chosen], True)
             self.check(status, plants, self.templates[1])
-            base = self.running_places(other, {}, angles, cage)[0] if self.relevant(values, False) else known
+            base = self.running_places(other, {}, starts[-1] if starts else angles)[0] if self.relevant(values, False) else known
             # Forces on the housing cancel but for what equilibria leave.
             left = TOLERANCE * self.rated_load / self.starts[0]["pin_circle_radius"] if name.startswith("housing_force") else 0.0
             return same(seen[:, k], known[chosen, k], known[:, k], base[:, k], left)
 
         run = ("running", k, self.relevant(values, condition.hours > 0.0), angles.tobytes(), cage)
-        return self.running(self.twins.of(run, condition, places_of(len(angles)), repeats), values, angles, cage)[:, k]
+        return self.running_places(self.twins.of(run, condition, places_of(len(angles)), repeats), values, angles, cage, starts)[0][:, k]
 
     def durations(self, condition: Condition, angles: Floats) -> Floats:
         """Times [s] in which the output turns to each of its ``angles`` from the one before."""
         found: Floats = np.maximum(np.abs(np.diff(angles, prepend=angles[0])) / (condition.speed / abs(self.ratio)), MOMENT)
         return found
 
-    def running_places(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> tuple[Floats, Floats]:
+    def running_places(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0,
+                       starts: Starts | None = None) -> tuple[Floats, Floats]:  # fmt: skip
         """(series, equilibria): the equilibria of the base model are where others start."""
         relevant = self.relevant(values, condition.hours > 0.0)
         key = ("running", condition, relevant, angles.tobytes(), cage)
@@ -133,9 +146,10 @@ class Bench(Lives):
             step = LARGEST_CRANK_STEP if guessed and condition.hours == 0.0 else 1.0
             places = np.zeros((len(angles), self.templates[0]["z"].shape[1]))
             if cage != 0.0:
-                similar = self.running_places(condition, values, angles)[1]
+                similar = self.running_places(condition, values, angles, 0.0, starts)[1]
             else:
-                similar = self.beside(key, lambda: self.running_places(condition, {}, angles)) if relevant else places
+                base = starts[-1] if starts else angles
+                similar = self.beside(key, lambda: self.running_places(condition, {}, base), starts or ()) if relevant else places
             plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=step, z=similar[0])
             # The wear unit of a new reducer has nothing to do.
             wears = self.templates[1]

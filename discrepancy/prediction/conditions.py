@@ -3,7 +3,6 @@
 from collections.abc import Hashable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.bench import Bench
@@ -69,15 +68,6 @@ def angles_of(bench: Bench, record: Record, zero: float) -> Floats:
 def turns_of(bench: Bench, record: Record) -> float:
     """Turns of the output that the samples span."""
     return float(np.ptp(angles_of(bench, record, 0.0))) / (2.0 * np.pi)
-
-
-def as_turned(bench: Bench, record: Record, values: Values) -> tuple[Floats, npt.NDArray[np.intp]]:
-    """The record's angles in the order in which they are passed, and the place of each sample among them."""
-    angles = angles_of(bench, record, zero_of(bench, record, values))
-    order = np.argsort(angles, kind="stable")[::condition_of(bench, record).direction]
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    return angles[order], place
 
 
 def angle_zero(record: Record) -> str:

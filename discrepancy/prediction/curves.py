@@ -11,13 +11,14 @@ from typing import Protocol, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.prediction.bench import TORQUE_STEP, Bench
-from discrepancy.prediction.conditions import Values, angle_zero, angles_of, as_turned, condition_of, held_condition, places_of_zero, zero_of
+from discrepancy.prediction.bench import TORQUE_STEP, Bench, Starts
+from discrepancy.prediction.conditions import Values, angle_zero, angles_of, condition_of, held_condition, places_of_zero, zero_of
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
+from discrepancy.prediction.stations import Stations, own_stations
 from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
 from discrepancy.prediction.torque_way import NEAR_NOTHING, entered, way
 from discrepancy.prediction.units import Condition
-from discrepancy.problem import Record
+from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
 
 # Fewer samples than these are computed where they are.
@@ -25,6 +26,8 @@ LEAST_SAMPLES = 16
 # Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
 # than this share of the samples' distance, there are none.
 FIRMLY, LEAST_SHARE = 0.1, 0.01
+# Decimals of an angle [rad] to which outputs that lag alike stand in one place.
+ALIKE = 10
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 # Where parameters do nearly the same, their derivatives differ by little: 2 % of errors were 20 times that.
@@ -106,8 +109,15 @@ class OverAngle:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
     def directly(self, values: Values) -> Floats:
-        angles, samples = self.support(None, values)
-        return samples(self.bench.column(self.name, self.condition, values, angles, self.cage))
+        anchor, beyond = self.anchored(values)
+        angles = self.at_stations(anchor)
+        return self.from_stations(self.bench.column(self.name, self.condition, values, angles, self.cage, self.starts(values, anchor)), beyond)
+
+    def starts(self, values: Values, anchor: float) -> Starts:
+        """Angles of runs near that with its angle 0 at ``anchor`` [rad]."""
+        near, distance = NEAR.get(), self.anchors()
+        beside = anchor if near is None else self.anchored({**values, **near})[0]
+        return self.at_stations(beside), self.at_stations(distance * round(anchor / distance) if distance else anchor)
 
     def seen(self, at: Callable[[Floats | float], Floats]) -> Floats:
         """An encoder on the output turns with the error itself: a sample is shown at the input's angle over the ratio and the error there.  Orders of
@@ -124,41 +134,67 @@ class OverAngle:
         return at(-behind)
 
     def support(self, nodes: AngleNodes | None, values: Values) -> tuple[Floats, Callable[[Floats], Floats]]:
-        """Angles [rad] at which to compute, and how the record's samples follow from there: ``nodes``, else the samples' own, near their anchor."""
+        """Angles [rad] at which to compute, and how the record's samples follow from there: ``nodes``, else its stations, near their anchor."""
         if nodes is not None:
             places = self.places(values)
             return nodes.angles, lambda series: nodes.samples(series, places)
-        at, beyond = self.anchored(values)
-        angles, place = as_turned(self.bench, self.record, at)
-        return angles, lambda series: moved(angles, series, beyond)[place]
+        anchor, beyond = self.anchored(values)
+        return self.at_stations(anchor), lambda series: self.from_stations(series, beyond)
 
     def beside(self, values: Values, base: Values, angles: Floats) -> Floats:
         """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
         high, low = (self.bench.error_beside(self.condition, v, angles, base, angles) for v in (values, base))
         return high - low
 
-    def anchored(self, values: Values) -> tuple[Values, float]:
-        """The values with the record's angle 0 at one of few places, and how far [rad] it is from there: runs are shared by all zeros near one."""
-        name = angle_zero(self.record)
-        zero, distance = zero_of(self.bench, self.record, values), self.anchors()
-        beyond = zero - distance * round(zero / distance) if distance else 0.0
-        return {**values, name: values.get(name, 0.0) - beyond}, beyond
+    def at_stations(self, zero: float) -> Floats:
+        """Angles [rad] of the stations in the order in which they are passed, with the record's angle 0 at ``zero``."""
+        return self.stations.angles[:: self.condition.direction] + zero
+
+    def from_stations(self, series: Floats, beyond: float) -> Floats:
+        """The record's samples of a ``series`` there, ``beyond`` [rad] further on."""
+        return self.stations.samples(series[:: self.condition.direction], beyond)
+
+    def anchored(self, values: Values) -> tuple[float, float]:
+        """One of few places [rad] for the record's angle 0, and how far it is from there: runs are shared by all zeros near one.
+
+        Roughly, or of the base model: kinks of a large effect would be where their place is not, and its direction with them.
+        """
+        zero, fineness = zero_of(self.bench, self.record, values), self.bench.fineness
+        loose = fineness is None or fineness.rough or not self.bench.relevant(values, True)
+        distance = self.anchors() if loose else 0.0
+        anchor = distance * round(zero / distance) if distance else round(zero, ALIKE)
+        return anchor, zero - anchor if distance else 0.0
+
+    @cached_property
+    def stations(self) -> Stations:
+        """Where its samples are computed: with other records, if what lies between is known as well as it must be."""
+        shared = self.shared_stations
+        near = not shared.off.any() or 2.0 * float(np.abs(shared.off).max()) <= self.anchors()
+        return shared if near else own_stations(angles_of(self.bench, self.record, 0.0))
+
+    @cached_property
+    def shared_stations(self) -> Stations:
+        angles = angles_of(self.bench, self.record, 0.0)
+        return self.bench.stations.get(angles.tobytes()) or own_stations(angles)
 
     def anchors(self) -> float:
         """Distance [rad] of the places at which angle 0 is anchored, so that what lies between is known as well as it must be; 0: everywhere."""
-        angles, _ = as_turned(self.bench, self.record, {})
-        if self.bench.fineness is None or self.condition.hours > 0.0 or len(angles) < LEAST_SAMPLES or np.abs(np.diff(angles)).min() <= 0.0:
+        angles = self.shared_stations.angles
+        if self.bench.fineness is None or self.condition.hours > 0.0 or len(angles) < LEAST_SAMPLES or np.diff(angles).min() <= 0.0:
             return 0.0
+        allowed = min(map(self.bench.allowed, self.shared_stations.sharers), default=self.bench.allowed(self.record))
 
         def found() -> float:
             # Wherever the cages stand: whoever asks first, all have the same.
-            series = self.bench.column(self.name, self.condition, {}, angles)
-            spacing = float(np.median(np.abs(np.diff(angles))))
-            error = SplineNodes(angles).error(series)
-            share = FIRMLY * self.bench.allowed(self.record) / error if error > 0.0 else 1.0
-            return spacing * 2.0 / np.pi * float(np.arcsin(min(share, 1.0))) if share > LEAST_SHARE else 0.0
+            series = self.bench.column(self.name, self.condition, {}, angles[:: self.condition.direction])
+            error = SplineNodes(angles).error(series[:: self.condition.direction])
+            share = FIRMLY * allowed / error if error > 0.0 else 1.0
+            if share <= LEAST_SHARE:
+                return 0.0
+            # By powers of two: other conditions have the same places.
+            return float(np.median(np.diff(angles)) * 2.0 ** np.floor(np.log2(2.0 / np.pi * np.arcsin(min(share, 1.0)))))
 
-        return self.bench.kept(("anchors", self.name, self.condition, angles.tobytes()), found)
+        return self.bench.kept(("anchors", self.name, self.condition, allowed, angles.tobytes()), found)
 
 
 @dataclass(frozen=True)
@@ -289,9 +325,9 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
     turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
-        anchor, place = as_turned(bench, record, curve.anchored(base)[0])
-        high, low = (bench.error_beside(curve.condition, v, as_turned(bench, record, v)[0], base, anchor) for v in (values, base))
-        return (high - low)[place]
+        anchor = curve.at_stations(curve.anchored(base)[0])
+        high, low = (bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, anchor) for v in (values, base))
+        return curve.from_stations(high - low, 0.0)
     angles, samples = curve.support(nodes, values)
     change = samples(curve.beside(values, base, angles))
     if turned:

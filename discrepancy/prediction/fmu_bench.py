@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.model_file import ModelFile, extended_reducer
-from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench, positions_of
+from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench, Starts, positions_of
 from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
 from discrepancy.prediction.units import TOLERANCE, Condition, whole_first, within_turn
 from fmu_src.arrays import Floats
@@ -175,12 +175,12 @@ class FmuBench(Bench):
         key = ("running", condition, self.relevant(values, condition.hours > 0.0), angles.tobytes())
         return self.kept(key, run)
 
-    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
+    def column(self, name: str, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0,
+               starts: Starts | None = None) -> Floats:  # fmt: skip
         return self.running(condition, values, angles, cage)[:, COLUMNS.index(name)]
 
-    def running_places(
-        self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0
-    ) -> tuple[Floats, Floats]:
+    def running_places(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0,
+                       starts: Starts | None = None) -> tuple[Floats, Floats]:  # fmt: skip
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
     def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,

@@ -22,7 +22,7 @@ from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
-from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, at_rest, distinct_conditions, identity
+from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, angles_of, at_rest, distinct_conditions, identity
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
 from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import Fineness
@@ -34,6 +34,7 @@ from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.stations import shared_stations
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
 from fmu_src.arrays import Floats
@@ -77,6 +78,8 @@ class PhysicalModel:
         present = model.values()
         self.bench = bench_of(model, present, fmus)
         self.bench.fineness = Fineness(self.records)
+        errors = [r for r in self.records if r.quantity == ERROR and {"angle", "time"} & r.axes.keys()]
+        self.bench.stations = shared_stations(errors, lambda record: angles_of(self.bench, record, 0.0))
         self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
         for record in self.records:
             rows = distinct_conditions(self.bench, record)

@@ -156,14 +156,14 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
     """
     fit = there(space, turned_back(space, fit, candidates))
     for _ in range(RENEWALS):
-        with space.predictions.anchored(fit.values):
+        with near(fit.values), space.predictions.anchored(fit.values):
             renewed = renew(space, fit, candidates)
         before, found = fit.chi2, there(space, renewed)
         fit = min(fit, found, key=lambda f: f.chi2)
         # Seen from where it began it may have looked better than it is.
         if abs(found.chi2 - renewed.chi2) < STILL or before - fit.chi2 < STILL:
             break
-    with space.predictions.anchored(fit.values):
+    with near(fit.values), space.predictions.anchored(fit.values):
         columns, covariance = by_secants(space, fit, candidates)
         polished = _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2)
     fit = fit_of(fit.parameters, fit.values, fit.residual, columns, fit.candidates, fit.converged)
