@@ -12,6 +12,8 @@ from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
 from reducers.checking import check
+from reducers.completion.again import given_again
+from reducers.completion.command import words_of
 from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
@@ -70,19 +72,44 @@ def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_
 
 
 def test_lost_motion_is_held_against_the_catalogue_s_and_the_gap_is_said_that_makes_it(tmp_path, capsys):
-    """What is printed for --known makes the catalogue's lost motion when it is given; where no gap does, that is said."""
+    """The command that is printed makes the catalogue's lost motion when it is given; where no gap does, that is said."""
     catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--stiffness", "392", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
     assert main(catalogue) == 0
     out = capsys.readouterr().out
     said = " ".join(out.split())
     assert "a lost motion of 1.09 arcmin (the catalogue's: 1): a gap of the flanks of" in said
-    assert re.search(r"--known disc.equidistant_modification=[0-9.]+um makes it 1 arcmin", said)
+    assert re.search(r"one of [0-9.]+ um makes it 1 arcmin, and --meet-lost-motion takes that", said)
     [line] = [line for line in out.splitlines() if line.startswith("  rvwear reducer new")]
     assert main([*shlex.split(line)[1:], "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["tested"]
     assert found["lost_motion"] == pytest.approx(1.0, abs=5e-3) and found["stiffness"] == pytest.approx(392.0, rel=5e-3)
     assert main([*catalogue, "--lost-motion", "0.3arcmin"]) == 0
     assert "without a gap it is" in " ".join(capsys.readouterr().out.split())
+    assert main([*catalogue, "--lost-motion", "0.3arcmin", "--meet-lost-motion"]) == 2
+    assert "no gap of the flanks makes a lost motion of 0.3 arcmin" in capsys.readouterr().err
+
+
+def test_a_gap_that_makes_the_lost_motion_is_completed_with_its_range_and_nobody_s_measure(tmp_path, capsys):
+    """It stood in the file as "given: measured", without a range; the command that was printed left the page out."""
+    path, page = tmp_path / "mine.toml", tmp_path / "mine.html"
+    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--lost-motion", "0.8", "--output", str(path), "--overwrite"]
+    assert main([*catalogue, "--html", str(page), "--against", "RV20E-121-rigid"]) == 0
+    [line] = [line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear reducer new")]
+    assert f"--html {page}" in line and "--against RV20E-121-rigid" in line and "--meet-lost-motion" in line
+    page.unlink()
+    assert main(shlex.split(line)[1:]) == 0 and page.exists()
+    assert "the catalogue's: 0.8)" in " ".join(capsys.readouterr().out.split())
+    made = load_reducer(path)
+    low, high = made.ranges["equidistant_modification"]
+    assert low == 0.0 and low < made.starts["equidistant_modification"] < high
+    assert made.sources["equidistant_modification"].startswith("completed: makes the lost motion that of the catalogue, 0.8 arcmin; flank gap by")
+    found = check(made)
+    assert not found.outdated and hysteresis(made, []).lost_motion_arcmin == pytest.approx(0.8, rel=5e-3)
+    given = given_again(made)
+    assert given.lost_motion == 0.8 and 1e-6 * given.flank_gap == pytest.approx(made.starts["equidistant_modification"])
+    assert "disc.equidistant_modification" not in given.known and "--meet-lost-motion" in words_of(given)
+    assert main([*catalogue, "--meet-lost-motion", "--known", "disc.equidistant_modification=3um"]) == 2
+    assert "each says the gap of the flanks; keep one" in capsys.readouterr().err
 
 
 def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):

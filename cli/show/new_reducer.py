@@ -11,8 +11,9 @@ from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
 from reducers.completion.doubts import FREE
+from reducers.completion.given import GAP
 from reducers.completion.known import FROM_OPTIONS
-from studies.catalogue_lost_motion import GAP, Tested
+from studies.catalogue_lost_motion import Tested
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
@@ -48,7 +49,7 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     if tested is not None:
         console().print(in_words(tested, completion))
         if tested.gap is not None and not is_met(tested, completion):
-            print(f"  {shlex.join([*command, '--known', f'{GAP}={tested.gap:g}um', '--overwrite'])}")
+            print(f"  {shlex.join([*command, '--meet-lost-motion', '--overwrite'])}")
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 
@@ -80,13 +81,13 @@ def in_words(tested: Tested, completion: Completion) -> str:
     found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
     if tested.gap is None:
         return found + f"without a gap it is {tested.least:.3g} arcmin, --known bearing.clearance=... sets the clearance"
-    return found + f"--known {GAP}={tested.gap:g}um makes it {told:g} arcmin"
+    return found + f"one of {tested.gap:g} um makes it {told:g} arcmin, and --meet-lost-motion takes that"
 
 
 def is_met(tested: Tested, completion: Completion) -> bool:
-    """Whether lost motion is the catalogue's, or is what a gap makes it that was given."""
+    """Whether lost motion is the catalogue's, or is what a gap makes it that was given or found."""
     told = completion.given.lost_motion
-    return completion.numbers[GAP].is_given or abs(tested.lost_motion - told) <= SAME * told
+    return completion.numbers[GAP].is_given or completion.given.flank_gap is not None or abs(tested.lost_motion - told) <= SAME * told
 
 
 def show_influences(completion: Completion, found: list[Influence]) -> None:
