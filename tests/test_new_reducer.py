@@ -26,7 +26,7 @@ from studies.completed_ranges import Influence, influences, what_matters
 from studies.hysteresis import hysteresis
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
-from workbench.reducers import findings
+from workbench.reducers import findings, rows_of
 
 RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
 
@@ -432,3 +432,22 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
         assert main([*words, *more, "--output", "no.toml"]) == 2
         assert said in " ".join(capsys.readouterr().err.split())
     assert not (tmp_path / "no.toml").exists()
+
+
+def test_compliances_stand_on_screens_in_the_units_that_people_read(tmp_path, capsys):
+    """Table, page and form had them in m/N and rad/(N.m), the commands too."""
+    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
+    assert main([*catalogue, "--known", "first_stage.compliance=10um/kN", "--against", "RV20E-121"]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"carrier\.compliance +4\.719e-05 +arcmin/\(N\.m\) +1\.03e-05 to 0\.000217 ", said) and re.search(r"support_compliance +[\d.]+ +um/kN", said)
+    completion = complete(Given(129, 40, 1568.0, cranks=3, known=known_numbers(["first_stage.compliance=10um/kN", "carrier.compliance=2e-7rad/(N.m)"])))
+    (table, dials) = page_of(completion, reducer_at(completion, {}), []).sections[-1].tables
+    shown = {row["name"]: row for row in rows_of(completion)}
+    for name, value, unit in (("first_stage.compliance", "10", "um/kN"), ("carrier.compliance", "0.00068755", "arcmin/(N.m)")):
+        assert (shown[name]["value"], shown[name]["unit"]) == (value, unit) and [name, value, unit] in [row[:3] for row in table.rows]
+    units = {row["unit"] for row in shown.values()} | {row[2] for row in table.rows} | {row[3] for row in dials.rows} | set(said.split())
+    assert not units & {"m/N", "rad/(N.m)", "kg.m^2", "1/Pa", "N/m"}
+    words = words_of(completion.given)
+    # What somebody typed in SI stays as it was typed.
+    assert "first_stage.compliance=10um/kN" in words and "carrier.compliance=2e-07rad/(N.m)" in words
+    assert known_numbers(["first_stage.compliance=10um/kN"]) == {"first_stage.compliance": pytest.approx(1e-8)}

@@ -201,9 +201,9 @@ def given_of(given: Mapping[str, Any]) -> tuple[Given, float | None]:
 
 def rows_of(completion: Completion) -> list[dict[str, Any]]:
     return [
-        {"name": n.name, "value": f"{n.value:.5g}", "unit": "" if n.unit == "1" else n.unit, "range": f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "",
+        {"name": n.name, "value": f"{n.value:.5g}", "unit": n.unit, "range": f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "",
          "source": n.source, "given": n.is_given, "asked": n.name not in FROM_OPTIONS}
-        for n in completion.numbers.values()
+        for n in (number.as_read for number in completion.numbers.values())
     ]  # fmt: skip
 
 

@@ -28,10 +28,10 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
     table.add_column("by", no_wrap=True)
-    for number in completion.numbers.values():
+    for number in (number.as_read for number in completion.numbers.values()):
         span = f"{number.low:.3g} to {number.high:.3g}" if number.low < number.high else ""
         rule = shorten(number.source.removeprefix(f"{COMPLETED}: "), RULE, placeholder=" ...")
-        table.add_row(number.name, f"{number.value:.4g}", "" if number.unit == "1" else number.unit, span, rule)
+        table.add_row(number.name, f"{number.value:.4g}", number.unit, span, rule)
     console(WIDTH).print(table)
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
@@ -59,11 +59,10 @@ def show_against(rows: list[Row], name: str, full: str) -> None:
     table = dense(f"{name} against {full}")
     for head in ("number", "completed", "range", "in the file", "unit", "inside?", "the file has it from"):
         table.add_column(head, justify="right" if head in ("completed", "range", "in the file") else "left", overflow="fold")
-    for row in rows:
+    for row in (row.as_read for row in rows):
         span = f"{row.low:.4g} to {row.high:.4g}" if row.low < row.high else ""
         inside = "yes" if row.inside else ("no", "red")
-        unit = "" if row.unit == "1" else row.unit
-        table.add_row(row.name, f"{row.completed:.4g}", span, f"{row.in_file:.4g}", unit, styled(inside), row.source)
+        table.add_row(row.name, f"{row.completed:.4g}", span, f"{row.in_file:.4g}", row.unit, styled(inside), row.source)
     console(WIDTH).print(table)
     known = [row for row in rows if row.tests]
     console().print(

@@ -9,6 +9,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import Protocol
 
+from fmu_src.display import read_text
 from fmu_src.faults import InputFault
 from fmu_src.table import Table
 from fmu_src.units import conversion
@@ -143,10 +144,10 @@ def outdated(reducer: Reducer) -> list[str]:
     # Whether the teeth go with each other is told as a fault where they do not; nothing else hangs on those of the sun.
     for name in (name for name in anew if name in completed and name != SUN):
         if abs(have[name] - anew[name]) > FAR * max(abs(have[name]), abs(anew[name])):
-            unit = "" if UNITS[name] == "1" else f" {UNITS[name]}"
+            had, would = (read_text(numbers[name], UNITS[name], 5) for numbers in (have, anew))
             rule = f" ({RULES[name][0]})" if name in RULES else ""
             found.append(
-                f"{name} = {have[name]:.5g}{unit} was completed{rule} from other numbers than the file has now, of which it would be {anew[name]:.5g}{unit}"
+                f"{name} = {had} was completed{rule} from other numbers than the file has now, of which it would be {would}"
             )
     if (named := NAMED.fullmatch(reducer.name)) and not all(map(alike, named.groups(), (given.ratio, given.rated))):
         found.append(f"reducer.name = {reducer.name} is made of other numbers than the file has now, of which it would be {usual_name(given)}")

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from fmu_src.display import read_in
 from reducers.completion.dials import ASSUMED, Dial, dials_of, gap_at
 from reducers.completion.doubts import FREE, doubts_of
 from reducers.completion.geometry import check_geometry
@@ -69,6 +70,12 @@ class Number:
     @property
     def is_given(self) -> bool:
         return self.source.startswith(GIVEN)
+
+    @property
+    def as_read(self) -> "Number":
+        """In the unit that people read it in: compliances in um/kN and arcmin/(N.m)."""
+        unit, (value, low, high) = read_in(self.unit, self.value, self.low, self.high)
+        return replace(self, unit="" if unit == "1" else unit, value=value, low=low, high=high)
 
 
 @dataclass(frozen=True)
