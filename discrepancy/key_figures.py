@@ -30,6 +30,8 @@ STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mea
 FROM = 0.5
 # Neighbours that are further apart than so many of the steps about them have something between them that was left out.
 GAP = 3.0
+# Nearer to a torque than this share of it nothing is left out, however close samples lie elsewhere (assumed: the play is gone through below that).
+CLOSE = 0.5
 # So many draws of noise where nothing is repeated.
 DRAWS = 25
 # The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
@@ -237,34 +239,45 @@ def ways(torque: Floats) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Branch:
-    """One way of a loop: its ``torque`` (m,), rising, and where each of its ``rows`` (n,) lies among them."""
+    """One way of a loop: its ``torque`` (m,), rising, where each of its ``rows`` (n,) lies among them, and the torques of each time that it was gone."""
 
     torque: Floats
     rows: npt.NDArray[np.intp]
     place: npt.NDArray[np.intp]
     count: npt.NDArray[np.intp]
+    times: tuple[Floats, ...]
 
     @classmethod
     def of(cls, torque: Floats, rows: npt.NDArray[np.intp]) -> "Branch | None":
         if len(rows) < 2:
             return None
         levels, place = np.unique(torque[rows], return_inverse=True)
-        return cls(levels, rows, place, np.bincount(place))
+        times = np.split(torque[rows], np.flatnonzero(np.diff(rows) > 1) + 1)
+        return cls(levels, rows, place, np.bincount(place), tuple(np.unique(once) for once in times))
 
     def has(self, at: Floats) -> npt.NDArray[np.bool_]:
-        """Whether torques ``at`` [N m] lie between neighbours hardly further apart than those about them are: a line through what was left out is none."""
-        if len(self.torque) < 2:
-            return np.zeros(len(at), bool)
-        steps = np.diff(self.torque)
-        gap = np.clip(np.searchsorted(self.torque, at) - 1, 0, len(steps) - 1)
-        about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
-        inside = (self.torque[0] <= at) & (at <= self.torque[-1])
-        found: npt.NDArray[np.bool_] = inside & ((steps[gap] <= GAP * about) | (len(steps) == 1))
+        """Whether torques ``at`` [N m] were measured: all times together, or once, for the torques of several times lie unevenly among each other."""
+        found: npt.NDArray[np.bool_] = np.any([between_near(levels, at) for levels in (self.torque, *self.times)], axis=0)
         return found
 
     def means(self, turning: Floats) -> Floats:
         """Turning over the torques, means where one is met again."""
         return np.bincount(self.place, turning[self.rows]) / self.count
+
+
+def between_near(levels: Floats, at: Floats) -> npt.NDArray[np.bool_]:
+    """Whether torques ``at`` lie between neighbours of the rising ``levels`` (m,) that are hardly further apart than those about them, or are close to
+    one of them: a line through what was left out is no reading."""
+    if len(levels) < 2:
+        return np.zeros(len(at), bool)
+    steps = np.diff(levels)
+    gap = np.clip(np.searchsorted(levels, at) - 1, 0, len(steps) - 1)
+    about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
+    inside = (levels[0] <= at) & (at <= levels[-1])
+    # A line's error grows with the product of the distances to both ends: that of neighbours so far apart, half-way between them.
+    as_if = 2.0 * np.sqrt(np.where(inside, (at - levels[gap]) * (levels[gap + 1] - at), 0.0))
+    found: npt.NDArray[np.bool_] = inside & ((steps[gap] <= GAP * about) | (as_if <= CLOSE * np.abs(at)) | (len(steps) == 1))
+    return found
 
 
 def both(up: Branch | None, down: Branch | None, at: Floats) -> npt.NDArray[np.bool_]:
