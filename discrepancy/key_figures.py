@@ -22,16 +22,13 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 from studies.hysteresis import LOST_MOTION_SHARE, width_torques
+from studies.left_out import CLOSE, between_near
 
 STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mean width of the loop", "peak to peak"
 # Stiffness is that between half and all of the torque, loading, as catalogues, GB/T 35089 and ``rvwear hysteresis`` have it: friction makes a
 # reducer stiffer unloading.  The width is the mean that ``rvwear hysteresis`` calls
 # loop_mean_width_arcmin; that at no torque, which it says too, is of the clearances as well, and of how closely a bench's torques lie.
 FROM = 0.5
-# Neighbours that are further apart than so many of the steps about them have something between them that was left out.
-GAP = 3.0
-# Nearer to a torque than this share of it nothing is left out, however close samples lie elsewhere (assumed: the play is gone through below that).
-CLOSE = 0.5
 # So many draws of noise where nothing is repeated.
 DRAWS = 25
 # The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
@@ -257,27 +254,12 @@ class Branch:
 
     def has(self, at: Floats) -> npt.NDArray[np.bool_]:
         """Whether torques ``at`` [N m] were measured: all times together, or once, for the torques of several times lie unevenly among each other."""
-        found: npt.NDArray[np.bool_] = np.any([between_near(levels, at) for levels in (self.torque, *self.times)], axis=0)
+        found: npt.NDArray[np.bool_] = np.any([between_near(levels, at, CLOSE * np.abs(at)) for levels in (self.torque, *self.times)], axis=0)
         return found
 
     def means(self, turning: Floats) -> Floats:
         """Turning over the torques, means where one is met again."""
         return np.bincount(self.place, turning[self.rows]) / self.count
-
-
-def between_near(levels: Floats, at: Floats) -> npt.NDArray[np.bool_]:
-    """Whether torques ``at`` lie between neighbours of the rising ``levels`` (m,) that are hardly further apart than those about them, or are close to
-    one of them: a line through what was left out is no reading."""
-    if len(levels) < 2:
-        return np.zeros(len(at), bool)
-    steps = np.diff(levels)
-    gap = np.clip(np.searchsorted(levels, at) - 1, 0, len(steps) - 1)
-    about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
-    inside = (levels[0] <= at) & (at <= levels[-1])
-    # A line's error grows with the product of the distances to both ends: that of neighbours so far apart, half-way between them.
-    as_if = 2.0 * np.sqrt(np.where(inside, (at - levels[gap]) * (levels[gap + 1] - at), 0.0))
-    found: npt.NDArray[np.bool_] = inside & ((steps[gap] <= GAP * about) | (as_if <= CLOSE * np.abs(at)) | (len(steps) == 1))
-    return found
 
 
 def both(up: Branch | None, down: Branch | None, at: Floats) -> npt.NDArray[np.bool_]:
