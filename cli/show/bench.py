@@ -1,6 +1,7 @@
 """Figures of a standard test, with their definitions."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from rich.table import Table
 
@@ -10,8 +11,8 @@ from studies.standard.evaluation import Figure, Test
 
 
 def show_bench(
-    reducer: str, test: Test, found: Mapping[str, Sequence[Figure]], unread: Mapping[str, Mapping[str, str]], rated: float, ratio: float, curves: int,
-    measured: str | None, as_json: bool,
+    reducer: str, test: Test, found: Mapping[str, Sequence[Figure]], rated: float, ratio: float, curves: int, measured: str | None, as_json: bool,
+    unread: Mapping[str, Mapping[str, str]] = MappingProxyType({}),
 ) -> None:
     """``found``: figures by condition, "" where there is one alone; ``unread``: why others are missing, by condition and name; ``rated`` torque [N m]."""
     if as_json:
