@@ -22,14 +22,13 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 from studies.hysteresis import LOST_MOTION_SHARE, width_torques
+from studies.left_out import CLOSE, between_near
 
 STIFFNESS, LOST_MOTION, WIDTH, SPAN = "torsional stiffness", "lost motion", "mean width of the loop", "peak to peak"
 # Stiffness is that between half and all of the torque, loading, as catalogues, GB/T 35089 and ``rvwear hysteresis`` have it: friction makes a
 # reducer stiffer unloading.  The width is the mean that ``rvwear hysteresis`` calls
 # loop_mean_width_arcmin; that at no torque, which it says too, is of the clearances as well, and of how closely a bench's torques lie.
 FROM = 0.5
-# Neighbours that are further apart than so many of the steps about them have something between them that was left out.
-GAP = 3.0
 # So many draws of noise where nothing is repeated.
 DRAWS = 25
 # The base is another kind of reducer where it is so many times stiffer, and then so many noises off count (assumed): what every bench
@@ -237,29 +236,25 @@ def ways(torque: Floats) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Branch:
-    """One way of a loop: its ``torque`` (m,), rising, and where each of its ``rows`` (n,) lies among them."""
+    """One way of a loop: its ``torque`` (m,), rising, where each of its ``rows`` (n,) lies among them, and the torques of each time that it was gone."""
 
     torque: Floats
     rows: npt.NDArray[np.intp]
     place: npt.NDArray[np.intp]
     count: npt.NDArray[np.intp]
+    times: tuple[Floats, ...]
 
     @classmethod
     def of(cls, torque: Floats, rows: npt.NDArray[np.intp]) -> "Branch | None":
         if len(rows) < 2:
             return None
         levels, place = np.unique(torque[rows], return_inverse=True)
-        return cls(levels, rows, place, np.bincount(place))
+        times = np.split(torque[rows], np.flatnonzero(np.diff(rows) > 1) + 1)
+        return cls(levels, rows, place, np.bincount(place), tuple(np.unique(once) for once in times))
 
     def has(self, at: Floats) -> npt.NDArray[np.bool_]:
-        """Whether torques ``at`` [N m] lie between neighbours hardly further apart than those about them are: a line through what was left out is none."""
-        if len(self.torque) < 2:
-            return np.zeros(len(at), bool)
-        steps = np.diff(self.torque)
-        gap = np.clip(np.searchsorted(self.torque, at) - 1, 0, len(steps) - 1)
-        about = np.maximum(steps[np.maximum(gap - 1, 0)] * (gap > 0), steps[np.minimum(gap + 1, len(steps) - 1)] * (gap < len(steps) - 1))
-        inside = (self.torque[0] <= at) & (at <= self.torque[-1])
-        found: npt.NDArray[np.bool_] = inside & ((steps[gap] <= GAP * about) | (len(steps) == 1))
+        """Whether torques ``at`` [N m] were measured: all times together, or once, for the torques of several times lie unevenly among each other."""
+        found: npt.NDArray[np.bool_] = np.any([between_near(levels, at, CLOSE * np.abs(at)) for levels in (self.torque, *self.times)], axis=0)
         return found
 
     def means(self, turning: Floats) -> Floats:

@@ -62,11 +62,17 @@ def usual_unit(unit: str, size: float) -> str:
     return next((name for name, smallest in USUAL.get(unit, ()) if abs(size) >= smallest), unit)
 
 
+def read_in(unit: str, *values: float) -> tuple[str, list[float]]:
+    """The unit that people read the first of ``values`` in, given in ``unit``, and all of them in it."""
+    found = usual_unit(unit, values[0])
+    factor, offset = conversion(unit, found)
+    return found, [factor * value + offset for value in values]
+
+
 def read_text(value: float, unit: str, digits: int) -> str:
     """A number of ``unit`` in the unit that people read it in: 8.9e-9 m/N as "8.9 um/kN"."""
-    read_in = usual_unit(unit, value)
-    factor, offset = conversion(unit, read_in)
-    return f"{factor * value + offset:.{digits}g}{'' if read_in == '1' else f' {read_in}'}"
+    found, (number,) = read_in(unit, value)
+    return f"{number:.{digits}g}{'' if found == '1' else f' {found}'}"
 
 
 @cache

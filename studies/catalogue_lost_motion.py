@@ -1,13 +1,17 @@
 """What the stiffness test reads of a completed reducer, and the gap of the flanks that would make its lost motion the catalogue's."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from fmu_src.faults import InputFault
 from orchestrator.settings import parse_setting
+from reducers.completion.complete import Completion, complete
+from reducers.completion.file import reducer_at
+from reducers.completion.given import GAP, Given
 from reducers.reducer import Reducer
+from studies.catalogue_stiffness import as_stiff_as
 from studies.hysteresis import Hysteresis, hysteresis
 from studies.secants import size_for
 
-GAP = "disc.equidistant_modification"
 # As near as a catalogue's figure is to be met, as a share of it, and steps until then: lost motion grows evenly with the gap.
 NEAR, MOST_STEPS = 2e-3, 6
 # Of the gap, between which its slope is taken [um].
@@ -23,6 +27,26 @@ class Tested:
     stiffness: float
     gap: float | None
     least: float
+
+
+def as_in_catalogue(given: Given, stiffness: float | None, meets: bool) -> Completion:
+    """Completed as stiff as the catalogue says [N m/arcmin], if it does; ``meets``: with the gap of the flanks that makes its lost motion."""
+    completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness)
+    return as_in_catalogue(replace(given, flank_gap=gap_for(completion)), stiffness, False) if meets else completion
+
+
+def gap_for(completion: Completion) -> float:
+    """Gap of the flanks [um] that makes the lost motion the catalogue's; InputFault where none does, or it is known."""
+    given = completion.given
+    if GAP in given.known:
+        raise InputFault(f"--meet-lost-motion and --known {GAP}: each says the gap of the flanks; keep one")
+    found = tested(reducer_at(completion, {}), completion.numbers[GAP].value, given.lost_motion)
+    if found.gap is None:
+        raise InputFault(
+            f"--meet-lost-motion: no gap of the flanks makes a lost motion of {given.lost_motion:g} arcmin, without one it is {found.least:.3g} arcmin;"
+            " look at --lost-motion, or give --known bearing.clearance=... or first_stage.backlash=..., which make the rest"
+        )
+    return found.gap
 
 
 def tested(reducer: Reducer, gap: float, lost_motion: float) -> Tested:

@@ -218,3 +218,42 @@ def test_a_dense_loop_is_read_in_its_play():
     rng = np.random.default_rng(3)
     noisy = [Way(torque, 1e-5 * torque + 1e-5 * rng.standard_normal(len(torque))).at(20.0) for _ in range(50)]
     assert np.std(noisy) < 0.3e-5
+
+
+def cut_loop(path, head, kept):
+    """A loop of play 2 arcmin that begins at rest, of the samples whose torques [N m] are ``kept``; the test is that of 167 N m."""
+    torque = 160.0 * np.interp(np.linspace(0.0, 5.0, 501), np.arange(6.0), [-1, 0, 1, 0, -1, 0])
+    angle = torque / 50.0 + np.tanh(torque / 2.0) - 0.1 * np.sign(np.gradient(torque))
+    rows = [f"{t:.5f};{a:.7f}".replace(".", ",") for t, a in zip(torque, angle) if kept(t)]
+    path.write_text("\n".join([head, *rows]), encoding="utf-8")
+    return ["bench", "--standard", "lost-motion", "--torque", "167", "--measured", str(path)]
+
+
+@pytest.mark.parametrize("head", ["Drehmoment [Nm];Verdrehung [arcmin]", "couple (N.m);angle sortie (arcmin)", "输出扭矩(Nm);扭转角(角分)", "T_N.m;output_angle_arcmin"])
+def test_heads_are_known_as_campaign_from_knows_them(tmp_path, head, capsys):
+    """All but output_torque and output_angle had to be said by --column."""
+    command = cut_loop(tmp_path / "loop.csv", head, lambda torque: True)
+    assert main([*command, "--json"]) == 0
+    found = {f["name"]: f["value"] for f in json.loads(capsys.readouterr().out)["figures"]}
+    assert found["lost_motion"] == pytest.approx(2.0 * (5.01 / 50.0 + np.tanh(5.01 / 2.0)), rel=0.01) and found["backlash"] == pytest.approx(0.2, rel=0.1)
+
+
+@pytest.mark.parametrize("head", ["Drehmoment;Verdrehung [arcmin]", "Drehmoment [Nm];Verdrehung"])
+def test_a_head_without_a_unit_is_not_guessed(tmp_path, head, capsys):
+    assert main(cut_loop(tmp_path / "loop.csv", head, lambda torque: True)) == 2
+    assert "Say which column is what: --column output_torque=HEADER:UNIT" in capsys.readouterr().err
+
+
+def test_nothing_is_read_across_samples_that_a_file_leaves_out(tmp_path, capsys):
+    """A backlash was read by a line over the play, and a lost motion between 19 and -19 N m, without a word."""
+    command = cut_loop(tmp_path / "loop.csv", "T [Nm];turn [arcmin]", lambda torque: abs(torque) > 4.0)
+    assert main([*command, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert [f["name"] for f in told["figures"]] == ["lost_motion"]
+    assert [(u["name"], u["why"]) for u in told["unread"]] == [
+        ("backlash", "with rising torque nothing between -4.8 and 4.8 N.m, with falling torque nothing between -4.8 and 4.8 N.m")
+    ]
+    assert main(command) == 0
+    assert "backlash is not read: with rising torque nothing between" in " ".join(capsys.readouterr().out.split())
+    assert main(cut_loop(tmp_path / "loop.csv", "T [Nm];turn [arcmin]", lambda torque: abs(torque) > 19.0)) == 2
+    assert re.search(r"lost_motion is not read: with rising torque nothing between -19\.2 and 19\.2 N\.m", capsys.readouterr().err)

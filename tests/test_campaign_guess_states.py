@@ -1,5 +1,6 @@
 """Facts that stand in a file are not asked again: the unit of a torque, the side that was held, that nothing loaded it, whose speed it is."""
 
+import math
 import shlex
 
 import numpy as np
@@ -219,3 +220,27 @@ def test_of_loops_locked_at_several_angles_any_may_be_held_out():
     plain = {name: {"temperature": "24 degC"} for name in conditions}
     (guess,) = held_out(plain, {name: ["hysteresis"] for name in plain}).values()
     assert guess.reason.endswith("nothing says which lies inside the others")
+
+
+@pytest.mark.parametrize(("word", "taken"), [
+    ("input", "input"), ("Eingang", "input"), ("Antrieb gesperrt", "input"), ("入力軸", "input"), ("in", "input"), ("sortie", "output"), ("Output", "output"),
+    ("Ausgang gesperrt, der Eingang frei", "output"), ("input at 40 deg", "input"),
+])  # fmt: skip
+def test_a_word_of_a_side_is_said_to_be_taken_for_it(tmp_path, capsys, word, taken):
+    """Other words than the file's own were refused as ``runs[1] (loop_1).tags.locked``, and doubts named none."""
+    (tmp_path / "loop_1.csv").write_text("torque [Nm],turn [arcmin]\n" + "\n".join(f"{math.sin(k / 9)},{math.sin(k / 9)}" for k in range(80)), encoding="utf-8")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", "--tag", f"locked={word}"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert f'tags.locked = "{taken}"' in said and (f"{word!r} is taken for {taken}" in said) == (word.lower() != taken)
+    assert ("said of the condition: --condition 'locked_at=40 deg'" in said) == ("40" in word)
+
+
+def test_a_word_that_is_not_understood_is_refused_with_those_that_are(tmp_path, capsys):
+    (tmp_path / "loop_1.csv").write_text("torque [Nm],turn [arcmin]\n" + "\n".join(f"{math.sin(k / 9)},{math.sin(k / 9)}" for k in range(80)), encoding="utf-8")
+    command = ["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run"]
+    for word, more in (("banana", ""), ("40 deg", "; where it was held is said of the condition: --condition 'locked_at=40 deg'"), ("inptu", "; did you mean input?"),
+                       ("entrada y salida", "")):  # fmt: skip
+        assert main([*command, "--tag", f"locked={word}"]) == 2
+        assert f"--tag locked={word}: {word!r} is not understood; which side was held is one of input, output{more}" in " ".join(capsys.readouterr().err.split())
+    assert main(command) == 0
+    assert "locked = input is assumed; --tag locked=WORD, which is input or output" in " ".join(capsys.readouterr().out.split())

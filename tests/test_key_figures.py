@@ -96,6 +96,22 @@ def test_nothing_is_read_across_samples_that_were_left_out():
     assert "lost motion" not in cut and cut["mean width of the loop"] == pytest.approx(whole["mean width of the loop"], rel=0.02)
 
 
+@pytest.mark.parametrize(("way", "samples"), [([0, 1, 0, -1, 0, 1, 0, -1, 0], 401), ([0, 1, -1, 1], 4001), ([0, 1, 0, -1, 0.1], 401)])
+def test_lost_motion_is_read_where_both_ways_were_measured_at_its_torque_once(way, samples):
+    """Torques of several times, and those that scatter, lie unevenly: next to two that lie close to each other any step looked like a gap."""
+    random = np.random.default_rng(3)
+    torque = 160.0 * np.interp(np.linspace(0.0, len(way) - 1.0, samples), np.arange(len(way)), way)
+    turning = 1e-5 * torque + 2e-4 * np.tanh(torque / 2.0)
+    # As rvwear leaves out: first samples that hang on what was before, and those about no torque.
+    kept = (np.maximum.accumulate(torque) > 0.08 * 160.0) & (np.abs(torque) > 0.01 * 167.0)
+    for _ in range(20):
+        read = of_loop((torque + 0.1 * random.standard_normal(samples))[kept], 167.0)(turning[kept])
+        assert read[LOST_MOTION] == pytest.approx(2e-5 * 5.01 + 4e-4 * np.tanh(5.01 / 2.0), rel=0.03)
+    # What every time was left out stays unread.
+    hole = kept & ~((torque > -8.0) & (torque < 12.0))
+    assert LOST_MOTION not in of_loop(torque[hole], 167.0)(turning[hole])
+
+
 def test_stiffness_of_each_branch_is_its_own():
     forward = np.where(WAY > 0.0, 1.0, 2.0) * loop(WAY, 1e-6)
     found = of_loop(WAY, RATED)(forward)

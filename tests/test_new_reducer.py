@@ -12,6 +12,8 @@ from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
 from reducers.checking import check
+from reducers.completion.again import given_again
+from reducers.completion.command import words_of
 from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
@@ -24,7 +26,7 @@ from studies.completed_ranges import Influence, influences, what_matters
 from studies.hysteresis import hysteresis
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
-from workbench.reducers import findings
+from workbench.reducers import findings, rows_of
 
 RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
 
@@ -70,19 +72,44 @@ def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_
 
 
 def test_lost_motion_is_held_against_the_catalogue_s_and_the_gap_is_said_that_makes_it(tmp_path, capsys):
-    """What is printed for --known makes the catalogue's lost motion when it is given; where no gap does, that is said."""
+    """The command that is printed makes the catalogue's lost motion when it is given; where no gap does, that is said."""
     catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--stiffness", "392", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
     assert main(catalogue) == 0
     out = capsys.readouterr().out
     said = " ".join(out.split())
     assert "a lost motion of 1.09 arcmin (the catalogue's: 1): a gap of the flanks of" in said
-    assert re.search(r"--known disc.equidistant_modification=[0-9.]+um makes it 1 arcmin", said)
+    assert re.search(r"one of [0-9.]+ um makes it 1 arcmin, and --meet-lost-motion takes that", said)
     [line] = [line for line in out.splitlines() if line.startswith("  rvwear reducer new")]
     assert main([*shlex.split(line)[1:], "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["tested"]
     assert found["lost_motion"] == pytest.approx(1.0, abs=5e-3) and found["stiffness"] == pytest.approx(392.0, rel=5e-3)
     assert main([*catalogue, "--lost-motion", "0.3arcmin"]) == 0
     assert "without a gap it is" in " ".join(capsys.readouterr().out.split())
+    assert main([*catalogue, "--lost-motion", "0.3arcmin", "--meet-lost-motion"]) == 2
+    assert "no gap of the flanks makes a lost motion of 0.3 arcmin" in capsys.readouterr().err
+
+
+def test_a_gap_that_makes_the_lost_motion_is_completed_with_its_range_and_nobody_s_measure(tmp_path, capsys):
+    """It stood in the file as "given: measured", without a range; the command that was printed left the page out."""
+    path, page = tmp_path / "mine.toml", tmp_path / "mine.html"
+    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--lost-motion", "0.8", "--output", str(path), "--overwrite"]
+    assert main([*catalogue, "--html", str(page), "--against", "RV20E-121-rigid"]) == 0
+    [line] = [line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear reducer new")]
+    assert f"--html {page}" in line and "--against RV20E-121-rigid" in line and "--meet-lost-motion" in line
+    page.unlink()
+    assert main(shlex.split(line)[1:]) == 0 and page.exists()
+    assert "the catalogue's: 0.8)" in " ".join(capsys.readouterr().out.split())
+    made = load_reducer(path)
+    low, high = made.ranges["equidistant_modification"]
+    assert low == 0.0 and low < made.starts["equidistant_modification"] < high
+    assert made.sources["equidistant_modification"].startswith("completed: makes the lost motion that of the catalogue, 0.8 arcmin; flank gap by")
+    found = check(made)
+    assert not found.outdated and hysteresis(made, []).lost_motion_arcmin == pytest.approx(0.8, rel=5e-3)
+    given = given_again(made)
+    assert given.lost_motion == 0.8 and 1e-6 * given.flank_gap == pytest.approx(made.starts["equidistant_modification"])
+    assert "disc.equidistant_modification" not in given.known and "--meet-lost-motion" in words_of(given)
+    assert main([*catalogue, "--meet-lost-motion", "--known", "disc.equidistant_modification=3um"]) == 2
+    assert "each says the gap of the flanks; keep one" in capsys.readouterr().err
 
 
 def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):
@@ -405,3 +432,22 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
         assert main([*words, *more, "--output", "no.toml"]) == 2
         assert said in " ".join(capsys.readouterr().err.split())
     assert not (tmp_path / "no.toml").exists()
+
+
+def test_compliances_stand_on_screens_in_the_units_that_people_read(tmp_path, capsys):
+    """Table, page and form had them in m/N and rad/(N.m), the commands too."""
+    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
+    assert main([*catalogue, "--known", "first_stage.compliance=10um/kN", "--against", "RV20E-121"]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"carrier\.compliance +4\.719e-05 +arcmin/\(N\.m\) +1\.03e-05 to 0\.000217 ", said) and re.search(r"support_compliance +[\d.]+ +um/kN", said)
+    completion = complete(Given(129, 40, 1568.0, cranks=3, known=known_numbers(["first_stage.compliance=10um/kN", "carrier.compliance=2e-7rad/(N.m)"])))
+    (table, dials) = page_of(completion, reducer_at(completion, {}), []).sections[-1].tables
+    shown = {row["name"]: row for row in rows_of(completion)}
+    for name, value, unit in (("first_stage.compliance", "10", "um/kN"), ("carrier.compliance", "0.00068755", "arcmin/(N.m)")):
+        assert (shown[name]["value"], shown[name]["unit"]) == (value, unit) and [name, value, unit] in [row[:3] for row in table.rows]
+    units = {row["unit"] for row in shown.values()} | {row[2] for row in table.rows} | {row[3] for row in dials.rows} | set(said.split())
+    assert not units & {"m/N", "rad/(N.m)", "kg.m^2", "1/Pa", "N/m"}
+    words = words_of(completion.given)
+    # What somebody typed in SI stays as it was typed.
+    assert "first_stage.compliance=10um/kN" in words and "carrier.compliance=2e-07rad/(N.m)" in words
+    assert known_numbers(["first_stage.compliance=10um/kN"]) == {"first_stage.compliance": pytest.approx(1e-8)}

@@ -738,6 +738,22 @@ def test_a_new_reducer_is_called_so_until_it_is_saved_and_no_model_of_others_bef
     page.locator("#model option:checked", has_text="ratio-121-412Nm.toml").wait_for(state="attached")
 
 
+def test_a_new_reducer_takes_the_gap_of_its_lost_motion_by_a_box(bench):
+    """Typed into the list below the gap that a card told counted for measured; compliances stood in SI there."""
+    page = bench.page
+    page.goto(bench.address)
+    bench.view("reducer")
+    page.click("#new")
+    page.fill("#ask-ratio", "129")
+    page.fill("#ask-rated", "1568")
+    page.get_by_text(re.compile("a gap of the flanks of .* makes it that")).wait_for()
+    page.check("#meets-lost-motion")
+    page.get_by_text("is taken, which makes it that").wait_for()
+    row = page.locator("tr", has=page.locator("[id='n-disc.equidistant_modification']"))
+    assert "makes the lost motion that of the catalogue" in row.inner_text() and row.locator("input.changed").count() == 0
+    assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
+
+
 def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
     """Neither while the next one is still fetched nor when what the former waited for comes at last."""
     page, held = dropped(bench, tmp_path), {}

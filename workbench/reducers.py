@@ -19,14 +19,13 @@ from pages.content import Card
 from pages.words import number
 from reducers.checking import check
 from reducers.completion.command import typed, usual_name, words_of
-from reducers.completion.complete import UNITS, Completion, complete
+from reducers.completion.complete import UNITS, Completion
 from reducers.completion.file import text_of
-from reducers.completion.given import Given, given_with
+from reducers.completion.given import GAP, Given, given_with
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
-from studies.catalogue_lost_motion import GAP, tested
-from studies.catalogue_stiffness import as_stiff_as
+from studies.catalogue_lost_motion import as_in_catalogue, tested
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
@@ -138,7 +137,7 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
         known, stiffness = given_of(given)
-        completion = complete(known) if stiffness is None else as_stiff_as(known, stiffness)
+        completion = as_in_catalogue(known, stiffness, bool(given.get("meets_lost_motion")))
         name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
             raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")
@@ -154,15 +153,17 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
         write_text(place, text)
         saved = place.name
     page = page_of(completion, reducer, [])
-    cards = test_cards(reducer, completion.numbers[GAP].value, stiffness, known.lost_motion)
+    cards = test_cards(reducer, completion, stiffness)
     page = replace(page, cards=[*page.cards, *cards], warnings=[*map(plainly, page.warnings)])
-    words = [*words_of(known), *(["--stiffness", typed(stiffness)] if stiffness is not None else []), "--name", name]
+    meant = replace(known, flank_gap=completion.given.flank_gap)
+    words = [*words_of(meant), *(["--stiffness", typed(stiffness)] if stiffness is not None else []), "--name", name]
     told = {"name": name, "saved": saved, "findings": findings(reducer)}
     return {"page": page_data(page), "numbers": rows_of(completion), **told, "command": shlex.join(words)}
 
 
-def test_cards(reducer: Reducer, gap: float, stiffness: float | None, lost_motion: float) -> list[Card]:
+def test_cards(reducer: Reducer, completion: Completion, stiffness: float | None) -> list[Card]:
     """What the stiffness test reads of it, beside what was asked for: nobody keeps a stiffness that was never looked at."""
+    gap, lost_motion = completion.numbers[GAP].value, completion.given.lost_motion
     asked = "not given: made by rules alone, hold it against the catalogue" if stiffness is None else f"{stiffness:.4g} asked for"
     try:
         found = tested(reducer, gap, lost_motion)
@@ -170,6 +171,8 @@ def test_cards(reducer: Reducer, gap: float, stiffness: float | None, lost_motio
         return [Card("torsional stiffness", "unknown", f"{asked}; the test fails: {fault}")]
     if found.gap is None:
         told = f"{found.least:.3g} without a gap of the flanks"
+    elif completion.given.flank_gap is not None:
+        told = f"a gap of the flanks of {gap:.4g} µm is taken, which makes it that"
     else:
         told = f"a gap of the flanks of {found.gap:g} µm makes it that, {gap:.3g} µm are taken"
     return [
@@ -198,9 +201,9 @@ def given_of(given: Mapping[str, Any]) -> tuple[Given, float | None]:
 
 def rows_of(completion: Completion) -> list[dict[str, Any]]:
     return [
-        {"name": n.name, "value": f"{n.value:.5g}", "unit": "" if n.unit == "1" else n.unit, "range": f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "",
+        {"name": n.name, "value": f"{n.value:.5g}", "unit": n.unit, "range": f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "",
          "source": n.source, "given": n.is_given, "asked": n.name not in FROM_OPTIONS}
-        for n in completion.numbers.values()
+        for n in (number.as_read for number in completion.numbers.values())
     ]  # fmt: skip
 
 

@@ -49,14 +49,15 @@ def bench_test(options: argparse.Namespace) -> int:
         with task(f"{test.name} on the virtual bench"):
             made = PROCEDURES[test.name](reducer, settings)
         curves = {key: {"": curve} for key, curve in made.items()} if test.own_figures else {"": dict(made)}
-    found = {}
+    found, unread = {}, {}
     for condition, group in curves.items():
         try:
             found[condition] = test.evaluate([*group.values()], rated, ratio)
+            unread[condition] = test.unread([*group.values()], rated, ratio)
         except InputFault as fault:
             raise InputFault(": ".join(filter(None, (options.measured, condition, str(fault))))) from None
     count = sum(len(group) for group in curves.values())
-    show_bench(reducer.name, test, found, rated, ratio, count, options.measured, options.json)
+    show_bench(reducer.name, test, found, rated, ratio, count, options.measured, options.json, unread)
     write_exports(options, lambda: bench_tables(found, curves), list)
     return 0
 

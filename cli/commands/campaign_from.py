@@ -46,7 +46,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
-        ("--tag", "KEY=WORD", "surface=flank, locked=output ..."),
+        ("--tag", "KEY=WORD", "what measurements are of: locked=input or output; surface=flank, pin, inner_race or outer_race; disc=1 ..."),
     ):
         command.add_argument(option, action="append", default=[], metavar=form, help=text)
     command.add_argument(

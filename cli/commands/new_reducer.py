@@ -39,6 +39,10 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--stiffness", type=number_in("N.m/arcmin"), metavar="NM/ARCMIN",
                      help="torsional stiffness of the catalogue [N m/arcmin]: the supports of the cranks are made as soft as that asks for")
     new.add_argument(
+        "--meet-lost-motion", action="store_true",
+        help="take the gap of the flanks with which the stiffness test reads that lost motion; the file has it as completed, with its range",
+    )  # fmt: skip
+    new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
         help="a number that was measured, with its unit: --known pin.radius=3mm; what hangs on it follows",
     )  # fmt: skip
@@ -65,17 +69,16 @@ def run_new(options: argparse.Namespace) -> int:
     from fmu_src.checked_file import write_text
     from reducers.completion.command import usual_name
     from reducers.completion.compare import against
-    from reducers.completion.complete import complete
     from reducers.completion.file import text_of
     from reducers.reducer import load_reducer
-    from studies.catalogue_stiffness import as_stiff_as
+    from studies.catalogue_lost_motion import as_in_catalogue
 
     given = given_by(options)
     name = options.name or usual_name(given)
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
-        completion = as_stiff_as(given, options.stiffness) if options.stiffness is not None else complete(given)
+        completion = as_in_catalogue(given, options.stiffness, options.meet_lost_motion)
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)
@@ -101,17 +104,19 @@ def run_new(options: argparse.Namespace) -> int:
 
 
 def command_of(options: argparse.Namespace, given: "Given", target: Path) -> list[str]:
-    """The command as it was given, but for what it asked for besides."""
-    from reducers.completion.command import words_of
+    """The command as it was given, that it writes over its files but not: whoever types it says so."""
+    from reducers.completion.command import typed, words_of
 
-    stiff = ["--stiffness", f"{options.stiffness:g}"] if options.stiffness is not None else []
-    return [*words_of(given), *stiff, *(["--name", options.name] if options.name else []), "--output", str(target)]
+    stiff = ["--stiffness", typed(options.stiffness)] if options.stiffness is not None else []
+    asked = [word for name in ("name", "against", "html") if (value := getattr(options, name)) for word in (f"--{name}", value)]
+    return [*words_of(given), *stiff, *asked, *(["--sensitivity"] if options.sensitivity else []), "--output", str(target)]
 
 
 def tested_of(completion: "Completion", reducer: "Reducer") -> "Tested | None":
     """What the stiffness test reads; None where the reducer does not stand it, which its check says."""
     from fmu_src.faults import RunFault
-    from studies.catalogue_lost_motion import GAP, tested
+    from reducers.completion.given import GAP
+    from studies.catalogue_lost_motion import tested
 
     try:
         return tested(reducer, completion.numbers[GAP].value, completion.given.lost_motion)

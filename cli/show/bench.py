@@ -1,6 +1,7 @@
 """Figures of a standard test, with their definitions."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from rich.table import Table
 
@@ -10,13 +11,15 @@ from studies.standard.evaluation import Figure, Test
 
 
 def show_bench(
-    reducer: str, test: Test, found: Mapping[str, Sequence[Figure]], rated: float, ratio: float, curves: int, measured: str | None, as_json: bool
+    reducer: str, test: Test, found: Mapping[str, Sequence[Figure]], rated: float, ratio: float, curves: int, measured: str | None, as_json: bool,
+    unread: Mapping[str, Mapping[str, str]] = MappingProxyType({}),
 ) -> None:
-    """``found``: figures by condition, "" where there is one alone; ``rated`` torque [N m]."""
+    """``found``: figures by condition, "" where there is one alone; ``unread``: why others are missing, by condition and name; ``rated`` torque [N m]."""
     if as_json:
         screen.json_text({
             "reducer": reducer, "standard": test.name, "measured": measured, "rated_torque_Nm": rated, "ratio": ratio, "curves": curves, "text": test.text,
             "figures": [{"condition": condition} | figure.as_json() for condition, figures in found.items() for figure in figures],
+            "unread": [{"condition": condition, "name": name, "why": why} for condition, own in unread.items() for name, why in own.items()],
         })  # fmt: skip
         return
     many = len(found) > 1
@@ -33,6 +36,9 @@ def show_bench(
     fill(table, columns, out.width - screen.BETWEEN_LINES * len(columns) - screen.EDGE, names, spread, ["value", *spread])
     out.print(table)
     out.print(f"rated torque {rated:g} N.m, ratio {ratio:g}, {curves} {'curve' if curves == 1 else 'curves'}")
+    for condition, own in unread.items():
+        for name, why in own.items():
+            out.print(screen.styled((f"{name} is not read", "yellow"), f"{f' of {condition}' if condition else ''}: {why}"))
     for name, definition in {figure.name: figure.definition for figure in figures}.items():
         out.print(f"{name}: {definition}")
     out.print(test.text)

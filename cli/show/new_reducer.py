@@ -11,8 +11,9 @@ from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
 from reducers.completion.doubts import FREE
+from reducers.completion.given import GAP
 from reducers.completion.known import FROM_OPTIONS
-from studies.catalogue_lost_motion import GAP, Tested
+from studies.catalogue_lost_motion import Tested
 from studies.completed_ranges import Influence, what_matters
 
 # Signs of a rule that a line of the table has room for.
@@ -27,10 +28,10 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
     table.add_column("by", no_wrap=True)
-    for number in completion.numbers.values():
+    for number in (number.as_read for number in completion.numbers.values()):
         span = f"{number.low:.3g} to {number.high:.3g}" if number.low < number.high else ""
         rule = shorten(number.source.removeprefix(f"{COMPLETED}: "), RULE, placeholder=" ...")
-        table.add_row(number.name, f"{number.value:.4g}", "" if number.unit == "1" else number.unit, span, rule)
+        table.add_row(number.name, f"{number.value:.4g}", number.unit, span, rule)
     console(WIDTH).print(table)
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
@@ -48,7 +49,7 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     if tested is not None:
         console().print(in_words(tested, completion))
         if tested.gap is not None and not is_met(tested, completion):
-            print(f"  {shlex.join([*command, '--known', f'{GAP}={tested.gap:g}um', '--overwrite'])}")
+            print(f"  {shlex.join([*command, '--meet-lost-motion', '--overwrite'])}")
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 
@@ -58,11 +59,10 @@ def show_against(rows: list[Row], name: str, full: str) -> None:
     table = dense(f"{name} against {full}")
     for head in ("number", "completed", "range", "in the file", "unit", "inside?", "the file has it from"):
         table.add_column(head, justify="right" if head in ("completed", "range", "in the file") else "left", overflow="fold")
-    for row in rows:
+    for row in (row.as_read for row in rows):
         span = f"{row.low:.4g} to {row.high:.4g}" if row.low < row.high else ""
         inside = "yes" if row.inside else ("no", "red")
-        unit = "" if row.unit == "1" else row.unit
-        table.add_row(row.name, f"{row.completed:.4g}", span, f"{row.in_file:.4g}", unit, styled(inside), row.source)
+        table.add_row(row.name, f"{row.completed:.4g}", span, f"{row.in_file:.4g}", row.unit, styled(inside), row.source)
     console(WIDTH).print(table)
     known = [row for row in rows if row.tests]
     console().print(
@@ -80,13 +80,13 @@ def in_words(tested: Tested, completion: Completion) -> str:
     found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
     if tested.gap is None:
         return found + f"without a gap it is {tested.least:.3g} arcmin, --known bearing.clearance=... sets the clearance"
-    return found + f"--known {GAP}={tested.gap:g}um makes it {told:g} arcmin"
+    return found + f"one of {tested.gap:g} um makes it {told:g} arcmin, and --meet-lost-motion takes that"
 
 
 def is_met(tested: Tested, completion: Completion) -> bool:
-    """Whether lost motion is the catalogue's, or is what a gap makes it that was given."""
+    """Whether lost motion is the catalogue's, or is what a gap makes it that was given or found."""
     told = completion.given.lost_motion
-    return completion.numbers[GAP].is_given or abs(tested.lost_motion - told) <= SAME * told
+    return completion.numbers[GAP].is_given or completion.given.flank_gap is not None or abs(tested.lost_motion - told) <= SAME * told
 
 
 def show_influences(completion: Completion, found: list[Influence]) -> None:

@@ -9,14 +9,15 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import Protocol
 
+from fmu_src.display import read_text
 from fmu_src.faults import InputFault
 from fmu_src.table import Table
 from fmu_src.units import conversion
 from reducers.completion.command import PINS_ASSUMED, described, usual_name, words_of
-from reducers.completion.complete import AS_STIFF, COMPLETED, RULES, UNITS, complete, dials_for, numbers_of
+from reducers.completion.complete import AS_STIFF, COMPLETED, MEETS, RULES, UNITS, complete, dials_for, numbers_of
 from reducers.completion.dials import dials_of
 from reducers.completion.doubts import FREE, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
-from reducers.completion.given import SUN, Given
+from reducers.completion.given import GAP, SUN, Given
 from reducers.completion.known import FROM_OPTIONS
 from reducers.usual import DERIVED, FAR, USUAL
 from rv_plant.gear_stage import total_ratio
@@ -24,7 +25,8 @@ from rv_plant.topology import Topology
 
 # What sources and description of a completed file say of options that no number of it is.
 SPEED = re.compile(r"(?:speed of|N m at) ([\d.e+-]+) rpm")
-GAP = re.compile(r"flank gap by equidistant modification 0 to ([\d.e+-]+) arcmin")
+GAP_RANGE = re.compile(r"flank gap by equidistant modification 0 to ([\d.e+-]+) arcmin")
+MET = re.compile(rf"{MEETS}, ([\d.e+-]+) arcmin")
 FIGURE = r"([0-9.e+]+)"
 NAMED = re.compile(f"ratio-{FIGURE}-{FIGURE}Nm")
 DESCRIBED = re.compile(f"(ratio {FIGURE}, rated {FIGURE} N m at {FIGURE} rpm).*, completed by design rules")
@@ -62,7 +64,7 @@ def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | Non
     ratio = float(f"{float(total_ratio(numbers['first_stage.ratio'], t.pins, t.lobes)):.9g}")
     # What no number of the file is: an input speed that was completed tells the output's with the ratio of that time alone.
     told = SPEED.search(f"{sources['input.speed']} {reducer.description}") if "input.speed" in completed else None
-    gap = GAP.search(sources.get("disc.equidistant_modification", ""))
+    meets = GAP in completed and sources[GAP].startswith(MEETS)
     ring = next(dial for dial in dials_of(t.pins, t.rollers, True, Given.lost_motion) if dial.name == "ring_share")
     by_diameter = "pin.circle_radius" in completed and ring.meaning in sources["pin.circle_radius"]
     known = {
@@ -73,10 +75,18 @@ def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | Non
         return Given(
             ratio, t.pins, abs(numbers["output.load_torque"]), numbers["pin.circle_radius"] / ring.value if by_diameter else None,
             float(told[1]) if told else abs(numbers["input.speed"]) / ratio, t.cranks, t.rollers,
-            2.0 * float(gap[1]) if gap else Given.lost_motion, known=known,
+            lost_motion_of(sources.get(GAP, "")), known=known, flank_gap=numbers[GAP] if meets else None,
         )  # fmt: skip
     except InputFault:
         return None
+
+
+def lost_motion_of(source: str) -> float:
+    """That of the catalogue [arcmin], of which the source of the flanks' gap tells."""
+    if met := MET.match(source):
+        return float(met[1])
+    gap = GAP_RANGE.search(source)
+    return 2.0 * float(gap[1]) if gap else Given.lost_motion
 
 
 def doubts_again(reducer: Reducer) -> list[str]:
@@ -134,10 +144,10 @@ def outdated(reducer: Reducer) -> list[str]:
     # Whether the teeth go with each other is told as a fault where they do not; nothing else hangs on those of the sun.
     for name in (name for name in anew if name in completed and name != SUN):
         if abs(have[name] - anew[name]) > FAR * max(abs(have[name]), abs(anew[name])):
-            unit = "" if UNITS[name] == "1" else f" {UNITS[name]}"
+            had, would = (read_text(numbers[name], UNITS[name], 5) for numbers in (have, anew))
             rule = f" ({RULES[name][0]})" if name in RULES else ""
             found.append(
-                f"{name} = {have[name]:.5g}{unit} was completed{rule} from other numbers than the file has now, of which it would be {anew[name]:.5g}{unit}"
+                f"{name} = {had} was completed{rule} from other numbers than the file has now, of which it would be {would}"
             )
     if (named := NAMED.fullmatch(reducer.name)) and not all(map(alike, named.groups(), (given.ratio, given.rated))):
         found.append(f"reducer.name = {reducer.name} is made of other numbers than the file has now, of which it would be {usual_name(given)}")

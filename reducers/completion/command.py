@@ -3,7 +3,7 @@
 import math
 from dataclasses import fields
 
-from fmu_src.display import read_text
+from fmu_src.display import read_in, read_text
 from reducers.completion.complete import UNITS
 from reducers.completion.given import Given
 
@@ -21,8 +21,9 @@ def words_of(given: Given) -> list[str]:
     words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
     words += ["--lost-motion", typed(given.lost_motion)] if given.lost_motion != Given.lost_motion else []
+    words += ["--meet-lost-motion"] if given.flank_gap is not None else []
     for name, value in given.known.items():
-        words += ["--known", f"{name}={typed(value)}{'' if UNITS[name] == '1' else UNITS[name]}"]
+        words += ["--known", f"{name}={with_unit(value, UNITS[name])}"]
     return words
 
 
@@ -39,8 +40,19 @@ def given_words(given: Given) -> str:
 
 def typed(value: float) -> str:
     """With the digits that were given; six of a number that another unit made."""
-    given = f"{value:.{MOST_TYPED}g}"
-    return given if math.isclose(float(given), value, rel_tol=1e-12) else f"{value:.{CONVERTED}g}"
+    return f"{value:.{MOST_TYPED if is_typed(value) else CONVERTED}g}"
+
+
+def is_typed(value: float) -> bool:
+    """Whether somebody may have typed it: few digits say it all."""
+    return math.isclose(float(f"{value:.{MOST_TYPED}g}"), value, rel_tol=1e-12)
+
+
+def with_unit(value: float, unit: str) -> str:
+    """In the unit that people read it in, or in ``unit`` if it was typed in that."""
+    usual, (converted,) = read_in(unit, value)
+    found, number = (unit, value) if is_typed(value) and not is_typed(converted) else (usual, converted)
+    return f"{typed(number)}{'' if found == '1' else found}"
 
 
 def usual_name(given: Given) -> str:

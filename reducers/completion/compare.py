@@ -1,7 +1,8 @@
 """A completed reducer against a full file of the same one: is what the file says inside the range?"""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from fmu_src.display import read_in
 from fmu_src.names import found_by_name
 from fmu_src.units import conversion
 from reducers.completion.complete import RULES, Completion, Number
@@ -21,6 +22,12 @@ class Row:
     in_file: float
     source: str
     by_published_rule: bool
+
+    @property
+    def as_read(self) -> "Row":
+        """In the unit that people read it in."""
+        unit, (completed, low, high, in_file) = read_in(self.unit, self.completed, self.low, self.high, self.in_file)
+        return replace(self, unit="" if unit == "1" else unit, completed=completed, low=low, high=high, in_file=in_file)
 
     @property
     def inside(self) -> bool:

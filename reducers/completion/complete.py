@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from reducers.completion.dials import ASSUMED, Dial, dials_of
+from fmu_src.display import read_in
+from reducers.completion.dials import ASSUMED, Dial, dials_of, gap_at
 from reducers.completion.doubts import FREE, doubts_of
 from reducers.completion.geometry import check_geometry
-from reducers.completion.given import SUN, Given
+from reducers.completion.given import GAP, SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS, SUPPORT_RULES, SUPPORT_UNITS, supports_of
 
 # In the order of the file; all that is computed here is in these units.
@@ -42,6 +43,8 @@ NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_s
 COMPLETED, GIVEN = "completed", "given"
 # Source of crank supports: how soft they are in place is what rules leave open, and what they were fitted for to catalogues.
 AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
+# Source of a gap of the flanks that the stiffness test asks for: no number of the catalogue, and none that was measured.
+MEETS = f"{COMPLETED}: makes the lost motion that of the catalogue"
 SUPPORTS = (
     "How soft a crank's bearing is in place is fitted to the RV-E series: it makes four fifths of the compliance, and scatters by a third from size to size."
 )
@@ -67,6 +70,12 @@ class Number:
     @property
     def is_given(self) -> bool:
         return self.source.startswith(GIVEN)
+
+    @property
+    def as_read(self) -> "Number":
+        """In the unit that people read it in: compliances in um/kN and arcmin/(N.m)."""
+        unit, (value, low, high) = read_in(self.unit, self.value, self.low, self.high)
+        return replace(self, unit="" if unit == "1" else unit, value=value, low=low, high=high)
 
 
 @dataclass(frozen=True)
@@ -106,7 +115,12 @@ def complete(given: Given) -> Completion:
 
 def dials_for(given: Given) -> list[Dial]:
     """All that is free in the design of such a reducer."""
-    return [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
+    dials = [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
+    if given.flank_gap is None:
+        return dials
+    # An arcmin of gap is another length of every reducer.
+    per_um = 1.0 / numbers_of(given, {dial.name: 1.0 if dial.name == "gap" else dial.value for dial in dials})[GAP]
+    return [gap_at(dial, given.flank_gap * per_um) if dial.name == "gap" else dial for dial in dials]
 
 
 def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
@@ -135,6 +149,8 @@ def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
     if name == "pin.circle_radius":
         return f"{COMPLETED}: {own_dial(dials['ring_torque' if given.diameter is None else 'ring_share'])}"
     rule, own = RULES[name]
+    if name == GAP and given.flank_gap is not None:
+        return f"{MEETS}, {given.lost_motion:g} arcmin; {own_dial(dials[own])}"
     if name == "input.speed":
         # The one place of a file that says the output's speed: teeth that change later change the ratio.
         rule += f" of {given.speed:.9g} rpm"

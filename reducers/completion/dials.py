@@ -12,7 +12,7 @@ coefficients, and only they have ranges of their own; the range of a number foll
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 HANDBOOK = "cycloid handbooks, as quoted in public design programs"
 PROGRAMS = "constraint of public programs for the optimal design of RV reducers"
@@ -91,6 +91,11 @@ def dials_of(pins: int, rollers: int, diameter: bool, lost_motion: float) -> lis
         between("sun_length", "length of sun and shaft over pin circle radius", 1.5, 3.5, BULK),
         *ASSUMED,
     ]  # fmt: skip
+
+
+def gap_at(dial: Dial, value: float) -> Dial:
+    """The dial of the flanks' gap, moved to ``value`` [arcmin]; its range reaches there."""
+    return replace(dial, value=value, low=min(dial.low, value), high=max(dial.high, value))
 
 
 # What is the same for all reducers of this kind: ``name`` is that of the number itself.

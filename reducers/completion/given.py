@@ -10,7 +10,7 @@ from fmu_src.faults import InputFault
 # Teeth of a sun, and of planet over sun, that one may expect (assumed: suns of RV reducers have 10 to 40 teeth).
 SUN_TEETH = range(10, 41)
 FIRST_STAGE = (0.5, 8.0)
-SUN = "first_stage.sun_teeth"
+SUN, GAP = "first_stage.sun_teeth", "disc.equidistant_modification"
 # From this rated torque on three cranks are usual (assumed: the RV-E series changes between its sizes 80 and 110 to 160).
 THREE_CRANKS = 1000.0
 # Pins of a reducer whose pins nobody counted, and what they may be instead where no whole teeth make its ratio (assumed: as the RV-20E and BX-40E).
@@ -21,7 +21,8 @@ USUAL_PINS, OTHER_PINS = 40, range(30, 61)
 class Given:
     """Task and outer measures: rated output torque [N m] and speed [rpm], outer diameter [mm], lost motion of the catalogue [arcmin].
 
-    ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.
+    ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.  ``flank_gap`` [um] was found to make
+    the lost motion that of the catalogue: nobody measured it, so that it keeps the range of the rule.
     """
 
     ratio: float
@@ -35,6 +36,7 @@ class Given:
     lobes: int | None = None
     known: Mapping[str, float] = field(default_factory=dict)
     pins_counted: bool = True
+    flank_gap: float | None = None
 
     def __post_init__(self) -> None:
         self.check_numbers()

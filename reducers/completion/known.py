@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Iterable
 
+from fmu_src.display import usual_unit
 from fmu_src.faults import InputFault, nearest
 from fmu_src.units import UnitError, conversion
 from reducers.completion.complete import UNITS
@@ -38,7 +39,7 @@ def number(text: str, name: str, value: str) -> float:
     unit = UNITS[name]
     match = NUMBER.match(value)
     if not match or not (match[2] or unit == "1"):
-        raise InputFault(f"--known {text}: give a number with its unit, for instance --known {name}={'3' if unit == '1' else f'3{unit}'}")
+        raise InputFault(f"--known {text}: give a number with its unit, for instance --known {name}={'3' if unit == '1' else f'3{usual_unit(unit, 1.0)}'}")
     try:
         factor, offset = conversion(match[2] or "1", unit)
     except UnitError as problem:

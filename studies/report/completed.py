@@ -1,5 +1,6 @@
 """The page of a completed reducer: the parts to scale, every number with its range, and which ranges matter for what."""
 
+from fmu_src.display import read_in
 from pages import look
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -40,14 +41,17 @@ def card(completion: Completion, name: str, label: str) -> Card:
 
 def numbers(completion: Completion) -> Table:
     rows = [
-        [n.name, f"{n.value:.5g}", "" if n.unit == "1" else n.unit, f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "", n.source]
-        for n in completion.numbers.values()
+        [n.name, f"{n.value:.5g}", n.unit, f"{n.low:.4g} to {n.high:.4g}" if n.low < n.high else "", n.source]
+        for n in (number.as_read for number in completion.numbers.values())
     ]
     return Table("Every number of the file", ["number", "value", "unit", "range", "by"], rows, (1, 3))
 
 
 def dials(completion: Completion) -> Table:
-    rows = [[d.name, d.meaning, f"{d.value:.4g}", "" if d.unit == "1" else d.unit, f"{d.low:.4g} to {d.high:.4g}", d.source] for d in completion.dials]
+    rows = []
+    for d in completion.dials:
+        unit, (value, low, high) = read_in(d.unit, d.value, d.low, d.high)
+        rows.append([d.name, d.meaning, f"{value:.4g}", "" if unit == "1" else unit, f"{low:.4g} to {high:.4g}", d.source])
     return Table("What is free: dials and their ranges", ["dial", "meaning", "value", "unit", "range", "from"], rows, (2, 4))
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault
 from studies.hysteresis import LOST_MOTION_SHARE
+from studies.left_out import CLOSE, between_near
 from studies.solve import ARCMIN, ARCSEC
 
 Curve = Mapping[str, Floats]
@@ -65,19 +66,27 @@ class Test:
     own_figures: bool = False
 
     def evaluate(self, curves: Sequence[Curve], rated: float, ratio: float) -> list[Figure]:
-        """Figures over all positions: the mean, and the spread where there are several.
+        """Figures over all positions: the mean, and the spread where there are several; those that any position leaves unread are missing.
 
         ``rated`` torque [N m], ``ratio`` of input turns to output turns.  InputFault for curves that do not hold what the test needs.
         """
         for number, curve in enumerate(curves, 1):
             self.check(curve, number, rated)
         read = [self.read(curve, rated, ratio) for curve in curves]
+        why = unread(read)
+        if why.keys() == read[0].keys():
+            raise InputFault("; ".join(f"{name} is not read: {reason}" for name, reason in why.items()))
         found = []
-        for name, (_, unit, definition) in read[0].items():
+        for name in (name for name in read[0] if name not in why):
+            _, unit, definition = read[0][name]
             values = [one[name][0] for one in read]
             spread = (min(values), max(values)) if len(values) > 1 else None
             found.append(Figure(name, float(np.mean(values)), unit, definition, spread))
         return found
+
+    def unread(self, curves: Sequence[Curve], rated: float, ratio: float) -> dict[str, str]:
+        """Why figures of ``evaluate`` are missing, by name."""
+        return unread([self.read(curve, rated, ratio) for curve in curves])
 
     def check(self, curve: Curve, number: int, rated: float) -> None:
         missing = [name for name in self.columns if name not in curve]
@@ -108,10 +117,26 @@ def starts_anew(angle: Floats) -> bool:
 
 @dataclass(frozen=True)
 class Way:
-    """One way of a loop: torques [N m], ascending, and angles [rad]."""
+    """One way of a loop: torques [N m], ascending, and angles [rad]; ``times``: the torques of each time that it was gone, ascending."""
 
     torque: Floats
     angle: Floats
+    times: tuple[Floats, ...] = ()
+
+    def has(self, torque: float, least: float) -> bool:
+        """Whether it was measured at a torque, as key figures of a comparison have it; what is nearer than half of ``least`` [N m] counts for measured."""
+        end = float(np.clip(torque, self.torque[0], self.torque[-1]))
+        if abs(torque - end) > (1.0 - REACHED) * abs(torque):
+            return False
+        at, close = np.array([end]), CLOSE * np.array([max(abs(torque), least)])
+        return any(between_near(levels, at, close)[0] for levels in (np.unique(self.torque), *self.times))
+
+    def around(self, torque: float) -> str:
+        """Between which torques nothing was measured, in words."""
+        place = int(np.searchsorted(self.torque, torque))
+        if not 0 < place < len(self.torque):
+            return f"nothing beyond {self.torque[min(place, len(self.torque) - 1)]:.4g} N.m"
+        return f"nothing between {self.torque[place - 1]:.4g} and {self.torque[place]:.4g} N.m"
 
     def at(self, torque: float) -> float:
         """Angle at a torque: by a straight line through what lies about it where that is much and straight, else between its neighbours."""
@@ -130,16 +155,19 @@ def ways(curve: Curve) -> tuple[Way, Way]:
     """(what was passed with rising torque, what with falling torque); a turning point belongs to both."""
     torque, angle = curve["output_torque"], curve["output_angle"]
     rising, falling = np.zeros((2, len(torque)), bool)
+    times: dict[bool, list[Floats]] = {True: [], False: []}
     points = turning_points(torque)
     for first, last in pairwise(points):
         part = slice(first, last + 1)
-        (rising if torque[last] > torque[first] else falling)[part] = True
+        upwards = bool(torque[last] > torque[first])
+        (rising if upwards else falling)[part] = True
+        times[upwards].append(np.unique(torque[part]))
     if not rising.any() or not falling.any():
         raise InputFault("the output torque goes one way alone; a hysteresis curve goes up and down again")
     found = []
-    for chosen in (rising, falling):
+    for chosen, once in ((rising, times[True]), (falling, times[False])):
         order = np.argsort(torque[chosen], kind="stable")
-        found.append(Way(torque[chosen][order], angle[chosen][order]))
+        found.append(Way(torque[chosen][order], angle[chosen][order], tuple(once)))
     return found[0], found[1]
 
 
@@ -163,11 +191,30 @@ def read_lost_motion(curve: Curve, rated: float, ratio: float) -> dict[str, tupl
     both = up, down = ways(curve)
     gap = abs(up.at(0.0) - down.at(0.0))
     forward, backward = (float(np.mean([way.at(torque) for way in both])) for torque in (least, -least))
-    return {
+    figures = {
         "lost_motion": (abs(forward - backward) * ARCMIN, "arcmin",
                         "angle at +3 % of the rated torque, mean of loading and unloading, less that at -3 %"),
         "backlash": (gap * ARCMIN, "arcmin", "angle at no torque coming from one side, less that coming from the other: width of the loop"),
     }  # fmt: skip
+    missing = {"lost_motion": left_out(both, (-least, least), least), "backlash": left_out(both, (0.0,), least)}
+    return {name: (float("nan"), unit, missing[name]) if missing[name] else (value, unit, text) for name, (value, unit, text) in figures.items()}
+
+
+def left_out(both: tuple[Way, Way], torques: Sequence[float], least: float) -> str:
+    """Where samples are missing that a figure is read from, in words; empty where none are."""
+    senses = zip(("rising", "falling"), both)
+    found = [f"with {sense} torque {way.around(torque)}" for sense, way in senses for torque in torques if not way.has(torque, least)]
+    return ", ".join(dict.fromkeys(found))
+
+
+def unread(read: Sequence[Mapping[str, tuple[float, str, str]]]) -> dict[str, str]:
+    """Name -> why, of figures that are no number for one of the curves."""
+    found: dict[str, str] = {}
+    for number, one in enumerate(read, 1):
+        for name, (value, _, why) in one.items():
+            if np.isnan(value):
+                found.setdefault(name, f"curve {number}: {why}" if len(read) > 1 else why)
+    return found
 
 
 def read_stiffness(curve: Curve, rated: float, ratio: float) -> dict[str, tuple[float, str, str]]:

@@ -264,8 +264,23 @@ export function show(root, context) {
         unit,
       ),
     );
+    // A gap that is typed below counts for measured; one that the test finds keeps its range.
+    const meets = h(
+      "label",
+      { class: "inline" },
+      h("input", {
+        type: "checkbox",
+        id: "meets-lost-motion",
+        checked: form.meets_lost_motion || null,
+        onchange: (e) => {
+          form.meets_lost_motion = e.target.checked;
+          ask();
+        },
+      }),
+      "take the gap of the flanks that makes the lost motion the catalogue's",
+    );
     ask();
-    return [h("div", { class: "panel" }, h("h1", {}, "A reducer of which little is known"), h("div", { class: "row" }, fields), said), result];
+    return [h("div", { class: "panel" }, h("h1", {}, "A reducer of which little is known"), h("div", { class: "row" }, fields, meets), said), result];
   }
 
   load();

@@ -21,6 +21,7 @@ from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
+from discrepancy.campaign.guess.tag_words import meant_by, words_for
 from discrepancy.campaign.guess.uneven import is_of_output
 from discrepancy.campaign.guess.wishes import Wishes, of_column
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, VALUE
@@ -297,13 +298,13 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
     entry = QUANTITIES[quantity]
     for tag in (*entry.tags, *entry.optional_tags):
         if tag in wishes.tags:
-            found[tag] = Guess(wishes.tags[tag], "given")
+            found[tag] = meant_by(tag, wishes.tags[tag])
         elif tag in entry.tags:
             said = surface_named(name) or surface_named(text) if tag == "surface" else locked_side(text) if tag == "locked" else None
             usual = {"surface": "flank", "locked": "input", "location": "housing_radial", "part": "reducer"}[tag]
             found[tag] = Guess(said or usual, "the file's name or head says so" if said else f"nothing says it; {usual} is usual", said is not None)
             if said is None:
-                doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD"))
+                doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD, {words_for(tag)}"))
     return found, doubts
 
 

@@ -7,6 +7,7 @@ from fnmatch import fnmatch
 from typing import TypeVar
 
 from discrepancy.campaign.guess.header_units import name_of
+from discrepancy.campaign.guess.tag_words import meant_by
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
 from fmu_src.faults import InputFault, nearest
 
@@ -54,6 +55,8 @@ class Wishes:
             for name in given:
                 if name not in choices:
                     raise InputFault(f"{option} {name}: there is no such thing; choose from {', '.join(choices)}{nearest(name, choices)}")
+        for tag, word in self.tags.items():
+            meant_by(tag, word)
         for key, factor in self.scales.items():
             if not math.isfinite(factor) or factor == 0.0:
                 raise InputFault(f"--scale {key}={factor:g}: a finite number other than 0 is needed, what the column is multiplied by")
