@@ -932,6 +932,30 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
 
 
+def test_an_effect_that_is_opened_under_try_is_seen_to_its_end(bench):
+    """The panel cut it at its bottom."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page = bench.page
+    bench.view("try")
+    page.locator("ul.list > li > details").first.wait_for()
+    parts = """() => {
+      const { bottom, height } = document.querySelector('ul.list').getBoundingClientRect();
+      const item = [...document.querySelectorAll('ul.list > li')].findLast((li) => li.getBoundingClientRect().bottom < Math.min(bottom, innerHeight));
+      item.id = 'lowest';
+      return height;
+    }"""
+    height = page.evaluate(parts)
+    page.locator("#lowest summary").click()
+    page.locator("#lowest details[open]").wait_for()
+    seen = """() => {
+      const list = document.querySelector('ul.list').getBoundingClientRect(), item = document.querySelector('#lowest').getBoundingClientRect();
+      return [item.height, item.top >= list.top - 1, item.bottom <= Math.min(list.bottom, innerHeight) + 1];
+    }"""
+    page.wait_for_function(f"({seen})()[2]", timeout=5_000)
+    tall, from_top, to_bottom = page.evaluate(seen)
+    assert 100 < tall < height and from_top and to_bottom
+
+
 def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_shown(bench):
     """400 became 30 with neither the range nor a unit; the words stayed when the slider was moved."""
     bench.page.goto(bench.address)
