@@ -234,6 +234,12 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     # An answer at once is no new one, and that is said.
     (said,) = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")]
     assert said.startswith("found again: the diagnosis of this model and these measurements, made ") and said.endswith(" of computing; none of it is computed anew")
+    # So it is where an effect is added by name alone.
+    monkeypatch.setattr("discrepancy.extend.extend", lambda *arguments, **options: options["answer"])
+    for further, lines in (({}, [said]), ({"said": True}, [])):
+        with told_to(screen):
+            assert remembered.extended(file, wide, ["any"], **further).as_json() == first.as_json()
+        assert [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")] == lines
     # What was found is added without a search, and is the same to the last digit.
     name = first.effects[0]["name"]
     fits = second.doctor.space.predictions.calls

@@ -197,7 +197,8 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     target = folder.root / MODEL
     with task(f"adding {', '.join(names)}"), held(target):
         file, campaign = inputs(folder, given)
-        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs)
+        # The answer stands on the page.
+        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, said=True)
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)
