@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from cli.progress import new_screen
-from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.compare import compare
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
+from discrepancy.inference.chi_square import chi_text
 from discrepancy.model_file import extended_reducer, load_model, save_model
+from discrepancy.next_run import proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
@@ -213,6 +215,20 @@ def test_compare_doubts_a_scale_that_no_reducer_has(file):
     milli = [replace(r, values=1000.0 * np.array(r.values)) if r.quantity == "input_torque" else r for r in campaign.records]
     warnings = compare(file, replace(campaign, records=tuple(milli))).warnings
     assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1
+
+
+def test_of_an_effect_that_stands_alone_the_nearest_rival_and_what_confirms_it_are_told(wide, diagnosed):
+    """"Needle clearance stands alone" stood there, and nothing of what it was held against."""
+    run = proposal_for(diagnosed, wide)
+    start, _, rest = run.verdict.partition("; ")
+    assert start == "nothing is left to separate: needle clearance stands alone" and run.result is None
+    fits = diagnosed.diagnosis.fits
+    worse = min(r.fit.chi2 for r in fits.rivals if r.name != "needle_clearance") - fits.members[0].fit.chi2
+    assert rest.startswith("nearest to it comes ") and f"which fits worse by {chi_text(worse)} in chi-square" in rest
+    assert "whoever wants it confirmed against that measures lost_motion at 20 degC, the cheapest that tells them apart (separation " in rest
+    # What this rig cannot tell it does not promise.
+    blind = replace(wide, rig=Rig({}, (1,), ("cage_speed",), (), 100.0, 1.0, 0.0, "EUR"))
+    assert "confirmed" not in proposal_for(diagnosed, blind).verdict and "nearest to it comes " in proposal_for(diagnosed, blind).verdict
 
 
 def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch, capsys):
