@@ -1,7 +1,9 @@
 """Tasks on the screen: bars on a terminal, a line now and then in a pipe or a log; always on stderr."""
 
+import math
 import sys
 import threading
+import time
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -10,8 +12,8 @@ from fmu_src.progress import Listener, Task
 if TYPE_CHECKING:
     from fmu_src.durations import Durations
 
-# What is over sooner is not spoken of in a pipe, no line follows another sooner [s], and the longer it takes the rarer they get.
-SOON, PAUSE, GROWTH = 0.7, 3.0, 0.4
+# What is over sooner is not spoken of in a pipe, no line follows another sooner, none of the same task [s], and the longer that takes the rarer they get.
+SOON, PAUSE, SAME, GROWTH = 0.7, 3.0, 10.0, 0.4
 
 
 def new_screen(words: list[str]) -> Listener:
@@ -49,15 +51,20 @@ class Remembering:
 
 
 class Lines:
-    """What is done, how far it is and about how long it still takes, every few seconds."""
+    """What is done, how far it is and about how long it still takes: a line for each task that takes long, and further ones now and then."""
 
     def __init__(self) -> None:
         self.tasks: list[Task] = []
+        # When a line was last printed, of each task and at all; tasks of which others are part.
+        self.spoken: dict[Task, float] = {}
+        self.last = -math.inf
+        self.outer: set[Task] = set()
         self.changed = threading.Condition()
         self.teller: threading.Thread | None = None
 
     def begin(self, task: Task) -> None:
         with self.changed:
+            self.outer.update(self.tasks)
             self.tasks.append(task)
             if self.teller is None:
                 self.teller = threading.Thread(target=self.tell, daemon=True)
@@ -66,6 +73,8 @@ class Lines:
     def end(self, task: Task) -> None:
         with self.changed:
             self.tasks.remove(task)
+            self.spoken.pop(task, None)
+            self.outer.discard(task)
             self.changed.notify()
 
     def say(self, text: str) -> None:
@@ -75,16 +84,22 @@ class Lines:
 
     def tell(self) -> None:
         """Runs beside the work and ends with the last task."""
-        spoken: dict[Task, float] = {}
         while True:
             with self.changed:
                 if not self.tasks:
                     self.teller = None
                     return
                 # The innermost is what is being done.
-                task = self.tasks[-1]
-                if task.passed > SOON and task.passed - spoken.get(task, -PAUSE) >= max(PAUSE, GROWTH * task.passed):
-                    spoken[task] = task.passed
+                task, now = self.tasks[-1], time.monotonic()
+                if self.is_due(task, now):
+                    self.spoken[task] = self.last = now
                     whole = next((outer.span for outer in self.tasks[:-1] if outer.span), "")
                     print(f"rvwear: {task.sentence()}{f'; in all {whole} left' if whole else ''}", file=sys.stderr, flush=True)
                 self.changed.wait(0.2)
+
+    def is_due(self, task: Task, now: float) -> bool:
+        """Whether a line of the innermost task is to be printed."""
+        if task in self.spoken:
+            return now - self.spoken[task] >= max(SAME, GROWTH * task.passed)
+        # Between two of its parts a task is the innermost for a moment, which is no news.
+        return task.passed > SOON and now - self.last >= (SAME if task in self.outer else PAUSE)

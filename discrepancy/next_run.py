@@ -14,12 +14,13 @@ from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
+from discrepancy.inference.chi_square import chi_text
+from discrepancy.inference.next_experiment import ENOUGH, Experiment, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.noise import noise_key
 from discrepancy.inference.noise.series import spacing_of, stream_of
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, UNKNOWN, Settings
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import locked
@@ -160,12 +161,19 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
-        return NextRun(answer, None, list(names), "; ".join([text, *untold_parts(answer.effects)]), left)
+        against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [text, against, *untold_parts(answer.effects)])), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
-    rivals = [rival_of(member, None, least) for member in chosen]
-    experiments = possible(answer.model, campaign, fits.space)
-    if any(POSITION in name for name in names):
+    result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
+    verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
+    return NextRun(answer, result, [member.name for member in chosen], verdict, left)
+
+
+def weighed(answer: Answer, campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:
+    """Every experiment that the rig can do, held against what the rivals predict of it."""
+    experiments = possible(answer.model, campaign, answer.diagnosis.fits.space)
+    if any(POSITION in rival.name for rival in rivals):
         experiments += [at_a_position(e, campaign) for e in experiments if is_unplaced(e.record)]
 
     def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:
@@ -174,9 +182,29 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     def naming(p: Proposal) -> str:
         return f"{p.kind} at {describe(p.settings, campaign, p.spans)}"
 
-    result = next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
-    verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
-    return NextRun(answer, result, [r.name for r in rivals], verdict, left)
+    return next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
+
+
+def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
+    """Of an effect that stands alone: what came nearest behind it, by how much, and which experiment holds the two against each other; empty where nothing
+    else was fitted."""
+    others = [rival for rival in answer.diagnosis.fits.rivals if plainly(rival) != plainly(named)]
+    if not others:
+        return ""
+    nearest = min(others, key=lambda rival: rival.fit.chi2)
+    worse = nearest.fit.chi2 - named.fit.chi2
+    how = f"fits worse by {chi_text(worse)} in chi-square" if worse > 0.0 else "fits as well and was turned down for what the diagnosis says of it"
+    said = f"nearest to it comes {plainly(nearest).replace('_', ' ')}, which {how}"
+    # Alike in weight: how likely each is by now is told already.
+    result = weighed(answer, campaign, [rival_of(one, 1.0) for one in (named, nearest)])
+    if not result.proposals:
+        return said
+    best = result.proposals[0]
+    if best.least >= ENOUGH:
+        cheapest = f"the cheapest that tells them apart (separation {chi_text(best.least)})"
+        return f"{said}: whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
+    most = f"most {best.experiment} (separation {best.least:.1f} of {ENOUGH:g})"
+    return f"{said}: no further experiment within the limits would tell these apart by itself, {most}"
 
 
 def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -67,8 +67,10 @@ def found_again(answer: Answer) -> str:
     return f"found again: the diagnosis of this model and these measurements, made {when} in {spent} of computing; none of it is computed anew"
 
 
-def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False, jobs: int = 1) -> "Extension":
-    """``extend``, from the diagnosis of the same if there was one, else from what it, or an extension, had found when it was interrupted.
+def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False, jobs: int = 1,
+             said: bool = False) -> "Extension":  # fmt: skip
+    """``extend``, from the diagnosis of the same if there was one, which is told unless it is ``said`` already, else from what it, or an extension,
+    had found when it was interrupted.
 
     KeyboardInterrupt says whether the same goes on from there: what is known by then is kept once the base model is fitted.
     """
@@ -76,6 +78,8 @@ def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Se
     from discrepancy.extend import beginning, extend
 
     known = remembered(file, campaign, settings, jobs)
+    if known and not said:
+        say(found_again(known))
     doctor = None if known else interrupted(file, campaign, settings, jobs) or beginning(file, campaign, settings, jobs)
     try:
         return extend(file, campaign, names, settings=settings, anyway=anyway, jobs=jobs, answer=known, doctor=doctor)

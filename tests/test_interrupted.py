@@ -260,13 +260,14 @@ def test_interrupted_after_the_diagnosis_what_is_kept_is_said(monkeypatch, capsy
     monkeypatch.setattr(extend, "extend", stop)
     # Before the base model is fitted there is nothing to keep.
     monkeypatch.setattr(remembered, "interrupted", lambda *given, **how: SimpleNamespace())
-    for known in (None, "an answer"):
+    for known in (None, SimpleNamespace(made=0.0, diagnosis=SimpleNamespace(seconds=60.0))):
         monkeypatch.setattr(remembered, "remembered", lambda *given, known=known, **how: known)
         assert main(["extend", "RV20E-121", "campaign", "--effect", "drag"]) == 130
     monkeypatch.setattr(choose, "drafts_of", lambda *given: ([SimpleNamespace(file=tmp_path / "drag.py", text="")], []))
     monkeypatch.setattr(choose, "write", lambda draft: draft.file.write_text(draft.text))
     monkeypatch.setattr(drafting, "tried", stop)
     assert main(["extend", "RV20E-121", "campaign", "--draft", str(tmp_path)]) == 130
-    weighed, anew, fitted, drafted = capsys.readouterr().err.splitlines()
+    weighed, anew, found, fitted, drafted = capsys.readouterr().err.splitlines()
+    assert found.startswith("found again: ")
     assert "while experiments were weighed: the diagnosis is kept, and the same command goes on" in weighed and "begins anew" in anew
     assert "RV20E-121.toml is as it was; the diagnosis is kept" in fitted and "drag.py is written, the diagnosis is kept" in drafted

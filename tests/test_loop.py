@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from cli.progress import new_screen
-from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.compare import compare
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
+from discrepancy.inference.chi_square import chi_text
 from discrepancy.model_file import extended_reducer, load_model, save_model
+from discrepancy.next_run import proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
@@ -215,6 +217,20 @@ def test_compare_doubts_a_scale_that_no_reducer_has(file):
     assert sum("what the model predicts" in text and 'unit = "mN.m"' in text for text in warnings) == 1
 
 
+def test_of_an_effect_that_stands_alone_the_nearest_rival_and_what_confirms_it_are_told(wide, diagnosed):
+    """"Needle clearance stands alone" stood there, and nothing of what it was held against."""
+    run = proposal_for(diagnosed, wide)
+    start, _, rest = run.verdict.partition("; ")
+    assert start == "nothing is left to separate: needle clearance stands alone" and run.result is None
+    fits = diagnosed.diagnosis.fits
+    worse = min(r.fit.chi2 for r in fits.rivals if r.name != "needle_clearance") - fits.members[0].fit.chi2
+    assert rest.startswith("nearest to it comes ") and f"which fits worse by {chi_text(worse)} in chi-square" in rest
+    assert "whoever wants it confirmed against that measures lost_motion at 20 degC, the cheapest that tells them apart (separation " in rest
+    # What this rig cannot tell it does not promise.
+    blind = replace(wide, rig=Rig({}, (1,), ("cage_speed",), (), 100.0, 1.0, 0.0, "EUR"))
+    assert "confirmed" not in proposal_for(diagnosed, blind).verdict and "nearest to it comes " in proposal_for(diagnosed, blind).verdict
+
+
 def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch, capsys):
     from discrepancy import remembered
 
@@ -234,6 +250,12 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     # An answer at once is no new one, and that is said.
     (said,) = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")]
     assert said.startswith("found again: the diagnosis of this model and these measurements, made ") and said.endswith(" of computing; none of it is computed anew")
+    # So it is where an effect is added by name alone.
+    monkeypatch.setattr("discrepancy.extend.extend", lambda *arguments, **options: options["answer"])
+    for further, lines in (({}, [said]), ({"said": True}, [])):
+        with told_to(screen):
+            assert remembered.extended(file, wide, ["any"], **further).as_json() == first.as_json()
+        assert [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")] == lines
     # What was found is added without a search, and is the same to the last digit.
     name = first.effects[0]["name"]
     fits = second.doctor.space.predictions.calls

@@ -51,6 +51,31 @@ def test_in_a_pipe_a_step_is_told_with_what_is_left_of_the_whole(monkeypatch, ca
     assert capsys.readouterr().err.splitlines() == ["rvwear: inner: 1 of 4, about 1 s left; in all 1 to 6 min left"]
 
 
+def test_in_a_pipe_a_task_is_told_once_and_then_every_ten_seconds_at_most(monkeypatch):
+    """A diagnosis of six minutes wrote a line of the same at 1, 4, 7, 12, 20 and 33 s of each step."""
+    lines, now = shown.Lines(), 1000.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    whole, told = Task("whole", begun=now), []
+    lines.tasks.append(whole)
+    for name, lasts in (("long", 60), ("short", 2), ("another", 5)):
+        inner = Task(name, begun=now)
+        lines.outer.update(lines.tasks)
+        lines.tasks.append(inner)
+        for _ in range(5 * lasts):
+            now += 0.2
+            if lines.is_due(lines.tasks[-1], now):
+                lines.spoken[inner] = lines.last = now
+                told.append((name, round(now - inner.begun)))
+        lines.end(inner)
+        # A moment in between.
+        now += 0.2
+        assert not lines.is_due(whole, now)
+    assert told == [("long", 1), ("long", 11), ("long", 21), ("long", 35), ("long", 58), ("short", 1), ("another", 2)]
+    assert not lines.spoken and lines.outer == {whole}
+    now += 10.0
+    assert lines.is_due(whole, now)
+
+
 def test_on_a_terminal_there_are_bars_and_they_go(monkeypatch):
     class Terminal(io.StringIO):
         def isatty(self):

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from workbench_server import CSV, asked, own
 
@@ -347,6 +348,19 @@ def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypat
         steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
         assert json.loads((tmp_path / "result.json").read_text())["found"] == found
         made = time.time() + 60.0
+
+
+def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
+    from discrepancy.calibrated_doubts import OF_INPUT
+    from discrepancy.campaign.unplaced import QUESTION
+    from discrepancy.problem import Record
+    from workbench.doubts import cells_of
+
+    loops = [Record(name, "hysteresis", "rad", name, 1, np.zeros(3), {"torque": np.zeros(3)}, {}, tags={"locked": "input"}) for name in ("cold", "warm")]
+    campaign = SimpleNamespace(records=loops)
+    of_warm, of_all, angle = f"loops in warm: {QUESTION}; state it", f"2 loops: {QUESTION}.", f"it lags hardly; state {OF_INPUT}"
+    cells = cells_of([of_warm, of_all, angle, "the noise is large"], campaign)  # type: ignore[arg-type]
+    assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], angle: ["angle"]}
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):

@@ -242,6 +242,33 @@ def test_from_the_doubt_about_a_locked_input_a_click_leads_to_its_cell_where_mea
     assert 'locked_at = "mean"' in (bench.folder / "campaign.toml").read_text(encoding="utf-8")
 
 
+def test_from_a_note_of_a_result_about_a_locked_input_a_click_leads_to_its_cell(bench, tmp_path):
+    """In had such a button, Look and Diagnose told what to write and not where."""
+    page, text = dropped(bench, tmp_path), "loops in 20degC: nobody says where the input was locked; state it"
+    page.select_option("#measured", "RV20E-121")
+    page.get_by_role("combobox", name="locked").select_option("input")
+    page.locator("#save:enabled").wait_for()
+    assert "fault" not in page.evaluate("async () => (await fetch('in/save', { method: 'POST', body: '{}' })).text()")
+    folder = opened(bench.folder)
+    shown = ANSWER["page"] | {"warnings": [text, "another"]}  # type: ignore[operator]
+    folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
+    folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
+    folder.remember("jobs/diagnose/result", ANSWER | {"page": shown, "cells": {text: ["20degC", "locked_at"]}})
+    bench.view("diagnose")
+    notes = page.locator(".note:visible", has=page.locator("button"))
+    notes.get_by_role("button", name="Say it: locked at").click()
+    page.locator("input:focus").wait_for()
+    assert page.locator("input:focus").get_attribute("id") == "c-20degC-locked_at"
+    assert page.locator("#tab-in[aria-selected=true]").count() == 1
+    told = page.evaluate("""async (text) => {
+      const { notes } = await import('./static/look_parts.js'), went = [];
+      const found = notes({ warnings: [text], calibrated: [], cells: { [text]: ['angle'] } }, { go: (name) => went.push(name) });
+      found.querySelector('.note button').click();
+      return [found.querySelector('.note').textContent, went];
+    }""", text)
+    assert told == [f"{text} Say it: whose the angle is", ["in"]]
+
+
 def test_families_of_one_quantity_are_corrected_together_and_conditions_in_one_place(bench, tmp_path):
     page = bench.page
     page.goto(bench.address)
@@ -946,6 +973,30 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     # The words about an effect are those of all its forms: these are listed below it.
     listed = page.locator("ul.list > li > details > summary").all_inner_texts()
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
+
+
+def test_an_effect_that_is_opened_under_try_is_seen_to_its_end(bench):
+    """The panel cut it at its bottom."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page = bench.page
+    bench.view("try")
+    page.locator("ul.list > li > details").first.wait_for()
+    parts = """() => {
+      const { bottom, height } = document.querySelector('ul.list').getBoundingClientRect();
+      const item = [...document.querySelectorAll('ul.list > li')].findLast((li) => li.getBoundingClientRect().bottom < Math.min(bottom, innerHeight));
+      item.id = 'lowest';
+      return height;
+    }"""
+    height = page.evaluate(parts)
+    page.locator("#lowest summary").click()
+    page.locator("#lowest details[open]").wait_for()
+    seen = """() => {
+      const list = document.querySelector('ul.list').getBoundingClientRect(), item = document.querySelector('#lowest').getBoundingClientRect();
+      return [item.height, item.top >= list.top - 1, item.bottom <= Math.min(list.bottom, innerHeight) + 1];
+    }"""
+    page.wait_for_function(f"({seen})()[2]", timeout=5_000)
+    tall, from_top, to_bottom = page.evaluate(seen)
+    assert 100 < tall < height and from_top and to_bottom
 
 
 def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_shown(bench):

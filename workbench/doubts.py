@@ -1,12 +1,16 @@
 """What is doubted of a campaign's columns and numbers, in words of the page: at the file's row, above numbers and before a verdict, mended by a click."""
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from discrepancy.calibrated_doubts import OF_INPUT
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.repetition_words import words
+from discrepancy.campaign.unplaced import QUESTION, unplaced_in
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.page.amounts import with_titles
 from discrepancy.repetitions import outlying
 from workbench.page_words import on_page
@@ -39,4 +43,22 @@ def apart(warnings: Sequence[str], campaign: "Campaign", more: "Sequence[Finding
     told = {text for finding in found for text in (finding.sentence, f"{finding.text}; {finding.remedy}")}
     # Of a repetition a result says besides what the model makes of it.
     repetitions = tuple(words(repetition) for repetition in outlying(campaign.records))
-    return [as_told(finding) for finding in found], [on_page(with_titles(text)) for text in warnings if text not in told and not text.startswith(repetitions)]
+    return [as_told(finding) for finding in found], [in_page_words(text) for text in warnings if text not in told and not text.startswith(repetitions)]
+
+
+def in_page_words(text: str) -> str:
+    return on_page(with_titles(text))
+
+
+def cells_of(warnings: Sequence[str], campaign: "Campaign") -> dict[str, list[str]]:
+    """By warning in words of the page, as ``apart`` has it, what of In answers it: a condition and the key that it lacks, or the role of a column alone."""
+    found = {}
+    for text in warnings:
+        if QUESTION in text and (names := unplaced_in(campaign.records)):
+            # Those of another condition may be known.
+            of = re.match(rf"loops in (.+?): {QUESTION}", text)
+            told = of[1].split(", ") if of else names
+            found[in_page_words(text)] = [next((name for name in names if name in told), names[0]), LOCKED_AT]
+        elif OF_INPUT in text:
+            found[in_page_words(text)] = ["angle"]
+    return found

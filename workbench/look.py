@@ -16,7 +16,7 @@ from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis, of_parameter, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
-from workbench.doubts import apart
+from workbench.doubts import apart, cells_of
 
 # The row of an order is drawn up to this one.
 MOST_ORDERS = 200
@@ -61,7 +61,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     doubts, warnings = apart(page.warnings, model.campaign, result.scale_doubts)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
-        "doubts": doubts, "warnings": warnings, "cards": [asdict(c) for c in page.cards],
+        "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign), "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
-from workbench.doubts import apart
+from workbench.doubts import apart, cells_of
 from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
@@ -118,6 +118,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     )
 
     page = page_data(page_of(answer))
+    cells = cells_of(page["warnings"], answer.model.campaign)
     doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
     effects = []
     for effect in answer.effects:
@@ -139,7 +140,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "rejected": turned_down(answer),
         "laws": [with_minus(with_titles(law.text)) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
-        "doubts": doubts,
+        "doubts": doubts, "cells": cells,
     }  # fmt: skip
 
 
@@ -169,10 +170,11 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
         run = next_run(*inputs(folder, given), jobs=jobs)
         report(run, place)
     asked = [{key: with_titles(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
+    cells = cells_of([one.why for one in run.asked], run.answer.model.campaign)
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
     write_json(place / "result.json", {
-        "verdict": on_page(with_titles(run.verdict)), "rivals": run.rivals, "asked": asked, "proposals": proposals,
+        "verdict": on_page(with_titles(run.verdict)), "rivals": run.rivals, "asked": asked, "cells": cells, "proposals": proposals,
         "stakes": {with_titles(where): at_stake for where, at_stake in run.stakes().items()}, "cost_unit": run.cost_unit,
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip
@@ -195,7 +197,8 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     target = folder.root / MODEL
     with task(f"adding {', '.join(names)}"), held(target):
         file, campaign = inputs(folder, given)
-        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs)
+        # The answer stands on the page.
+        extension = extended(file, campaign, names, anyway=bool(given.get("anyway")), jobs=jobs, said=True)
         save_model(extension.file, target)
         report(extension, place)
     words = " ".join(f"--effect {shlex.quote(name)}" for name in names)

@@ -246,7 +246,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         names = named_in(answer)
     with task(f"adding {', '.join(names)}"):
         try:
-            extension = extended(file, campaign, names, anyway=options.anyway, jobs=all_cores())
+            extension = extended(file, campaign, names, anyway=options.anyway, jobs=all_cores(), said=not options.effect)
         except KeyboardInterrupt as stop:
             raise KeyboardInterrupt(f"while {', '.join(names)} was fitted: {target} is as it was; {stop}") from stop
         except UnknownEffect as fault:

@@ -11,6 +11,7 @@ from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.catalogue import Entry
+    from discrepancy.catalogue.declared_signals import Change
     from discrepancy.catalogue.signature import Signature
     from fmu_src.effect import EffectParameter
     from fmu_src.effect_check import Finding
@@ -32,7 +33,7 @@ def run_effects(options: argparse.Namespace) -> int:
     if options.check:
         return check_files([file for name in options.check for file in effect_files(Path(name))], options.json)
     from cli.screen import json_text
-    from cli.show.effects import show_list, show_one
+    from cli.show.effects import show_list, show_one, show_signals
     from discrepancy.catalogue.catalogue import entries, found_by
 
     page = page_path(options.html)
@@ -41,11 +42,15 @@ def run_effects(options: argparse.Namespace) -> int:
     computed = compute(chosen, options.reducer) if one and not page else {}
     if page:
         computed = write_page(chosen, options.reducer, page)
+    signals = changes_by_signal(chosen[0]) if one and not page and chosen[0].is_own else {}
     if options.json:
         found = [e.as_json() | {"reducer": options.reducer, "computed": [as_json(s) for s in computed.get(e.name, [])]} for e in chosen]
-        json_text(found[0] if one else {"effects": found})
+        judged = {"judged": {name: {"times_noise": change.ratio, "change": change.text} for name, change in signals.items()}} if signals else {}
+        json_text(found[0] | judged if one else {"effects": found})
     elif one and not page:
         show_one(chosen[0], computed[chosen[0].name], options.reducer)
+        if signals:
+            show_signals(chosen[0], signals)
     elif not page:
         show_list(chosen, options.name)
     if page and not options.json:
@@ -161,6 +166,14 @@ def compute(chosen: "list[Entry]", reducer: str) -> "dict[str, list[Signature]]"
     with task("computing the signature"):
         bench = new_bench(reducer)
         return {e.name: [signature(bench, e.name, case) for case in e.cases] for e in chosen}
+
+
+def changes_by_signal(own: "Entry") -> "dict[str, Change]":
+    """What an own effect changes of the signals that ``--check`` holds its file against, by the same computation."""
+    from discrepancy.catalogue.declared_signals import changes_of
+
+    with task("what it changes of each signal"):
+        return changes_of(own.name, own.effect)
 
 
 def write_page(chosen: "list[Entry]", reducer: str, path: Path) -> "dict[str, list[Signature]]":

@@ -1,5 +1,6 @@
 """What ``rvwear effects`` shows on the screen."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rich.table import Table
@@ -11,7 +12,11 @@ from discrepancy.catalogue.examples import CASES
 from discrepancy.catalogue.ranges import range_of
 
 if TYPE_CHECKING:
+    from discrepancy.catalogue.declared_signals import Change
     from discrepancy.catalogue.signature import Signature
+
+# Times a usual bench's noise, from which a change is told.
+LEAST_RATIO = 0.01
 
 
 def show_list(entries: list[Entry], word: str | None = None) -> None:
@@ -56,7 +61,29 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     if found and not any(signature.shows for signature in found):
         return
     ideal = " (rigid supports, no losses, so that an effect shows by itself); --reducer RV20E-121 for one as soft and lossy as a real one"
-    out.print(f"Figures are those of {reducer}{ideal if reducer == IDEAL_REDUCER else ''}. Those that are not listed do not change.")
+    out.print(f"Figures are those of {reducer}{ideal if reducer == IDEAL_REDUCER else ''}. Those that are not listed do not change"
+              " at the conditions at which they are computed.")
+
+
+def show_signals(entry: Entry, changes: "Mapping[str, Change]") -> None:
+    """What an own effect changes of each signal of a campaign, as ``--check`` judges its file: other conditions, another reducer, and a bench's noise."""
+    from discrepancy.catalogue.declared_signals import STANDS_OUT, reducer_for
+    from discrepancy.prediction.candidates import shown_by
+
+    declared, out = shown_by(entry.effect), console(WIDTH)
+    table = dense(f"by signal, as effects --check judges its file: on {reducer_for(entry.effect)}, where it changes most")
+    for head in ("signal", "declared", "changed by", "at", "noise of a usual bench", "times the noise"):
+        table.add_column(head, justify="right" if head in ("changed by", "noise of a usual bench", "times the noise") else "left")
+    for quantity, change in changes.items():
+        said = "yes" if quantity in declared else "" if declared else "all are"
+        # What a solver leaves is no change.
+        if change.ratio < LEAST_RATIO:
+            table.add_row(quantity, said, "nothing", "", "", "")
+        else:
+            table.add_row(quantity, said, change.size, change.place, change.noise, f"{change.ratio:.2g}")
+    out.print(table)
+    out.print(f"Doubtful for --check: what is not declared and changed by more than {STANDS_OUT:g} times the noise, and where nothing that is declared is"
+              " changed by more than it. A mean of transmission errors or of a loop is no change here, for nobody knows the zero of an angle.")  # fmt: skip
 
 
 def unseen(entry: Entry, signature: "Signature") -> str:

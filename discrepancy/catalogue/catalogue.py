@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from discrepancy.catalogue.examples import Case, cases, part_of
+from discrepancy.catalogue.examples import CASES, Case, cases, part_of
 from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.model_file import every_effect
 from fmu_src.effect import Effect, EffectParameter
@@ -24,6 +24,11 @@ class Entry:
     def number(self) -> str:
         """Its number in the physics audit; the measuring chain's own have none."""
         return str(self.effect.number) if self.effect.number else "-"
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is somebody's own, for whose file ``--check`` is."""
+        return self.name not in CASES
 
     @property
     def text(self) -> str:

@@ -63,17 +63,16 @@ def main(name: str) -> None:
 
 def doubts_of(name: str, effect: Effect) -> list[str]:
     """A sentence for what changes and is not declared, and one where nothing that is declared changes."""
-    declared, judged = shown_by(effect), WORN if name in WEAR else PLANT
+    declared, reducer = shown_by(effect), reducer_for(effect)
     if not declared:
         return []
-    reducer = WITH_PINS if effect.needs == "output pins" else REDUCER
-    found = largest_changes(Bench(load_reducer(reducer), {}), effect, [case.values for case in cases(name, effect)], judged)
+    found = changes_of(name, effect)
     lacking = [f"{q} ({change.text})" for q, change in found.items() if q not in declared and change.ratio > STANDS_OUT]
     said = []
     if lacking:
         said.append(f"signals lack {', '.join(lacking)}, which it changes at its usual size on {reducer}: where nothing else is measured a diagnosis does not"
                     " look for it; declare them, or leave them out on purpose")  # fmt: skip
-    if set(declared) <= set(judged) and all(found[q].ratio < 1.0 for q in declared):
+    if set(declared) <= set(found) and all(found[q].ratio < 1.0 for q in declared):
         most = max((found[q] for q in declared), key=lambda change: change.ratio)
         said.append(f"none of its signals is changed by more than noise at its usual size on {reducer}, most {most.quantity} ({most.text}):"
                     " look at the usual size in EFFECT, and at what the hooks change")  # fmt: skip
@@ -82,16 +81,33 @@ def doubts_of(name: str, effect: Effect) -> list[str]:
 
 @dataclass(frozen=True)
 class Change:
-    """The largest change of a quantity, as a multiple of a usual bench's noise and in words."""
+    """The largest change of a quantity, as a multiple of a usual bench's noise and in words: how much, at which condition, and that noise."""
 
     quantity: str
-    ratio: float
-    text: str
+    ratio: float = 0.0
+    size: str = ""
+    place: str = ""
+    noise: str = ""
+
+    @property
+    def text(self) -> str:
+        return f"by {self.size}, {self.place}; a usual bench's noise is {self.noise}" if self.size else "by nothing"
+
+
+def reducer_for(effect: Effect) -> str:
+    """The reducer on which its signals are judged."""
+    return WITH_PINS if effect.needs == "output pins" else REDUCER
+
+
+def changes_of(name: str, effect: Effect) -> dict[str, Change]:
+    """What an effect changes of each quantity that is judged, at its parameters' usual size."""
+    bench = Bench(load_reducer(reducer_for(effect)), {})
+    return largest_changes(bench, effect, [case.values for case in cases(name, effect)], WORN if name in WEAR else PLANT)
 
 
 def largest_changes(bench: Bench, effect: Effect, strengths: Sequence[Mapping[str, float]], quantities: Sequence[str]) -> dict[str, Change]:
     """By quantity, over the strengths and all conditions at which it is looked at."""
-    at, found = conditions(bench), {quantity: Change(quantity, 0.0, "by nothing") for quantity in quantities}
+    at, found = conditions(bench), {quantity: Change(quantity) for quantity in quantities}
     for quantity, values in product(quantities, strengths):
         places = HELD_AT if quantity in HELD else WORN_AT if quantity in WORN else RUNNING_AT
         changes = [change_of(bench, record, values, place) for place in places for record in records(bench, quantity, at[place], effect)]
@@ -106,7 +122,7 @@ def change_of(bench: Bench, record: Record, values: Mapping[str, float], place: 
     change = np.abs(change - change.mean() if record.free_zero else change).max()
     noise = NOISE.get(record.quantity) or SHARE * float(np.abs(without).max())
     size, usual = (shown(value, QUANTITIES[record.quantity].unit, record.quantity) for value in (float(change), noise))
-    return Change(record.quantity, float(change) / noise, f"by {size}, {place}; a usual bench's noise is {usual}")
+    return Change(record.quantity, float(change) / noise, size, place, usual)
 
 
 def records(bench: Bench, quantity: str, condition: Condition, effect: Effect) -> Iterator[Record]:

@@ -3,6 +3,7 @@
 import { choose, command, effectName, h, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
 import { alike, offered, refusal } from "./refused.js";
+import { asked } from "./to_cell.js";
 
 // Where it is told what is being done, once it is.
 const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`, "aria-live": "off" });
@@ -34,7 +35,7 @@ export function nextPart(bag) {
               { id: "asked" },
               table(
                 ["☐", "measure", "because", "condition", price, "expected misfit"],
-                next.asked.map((a) => ["☐", a.experiment, a.why, a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
+                next.asked.map((a) => ["☐", a.experiment, h("span", {}, asked(a.why, next.cells, context)), a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
                 [4, 5],
                 { class: "rows" },
               ),

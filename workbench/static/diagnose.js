@@ -7,6 +7,7 @@ import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
 import { cards, recolour, sections, warnings } from "./page.js";
 import { dimmed, past } from "./past.js";
+import { asked } from "./to_cell.js";
 
 // What a diagnosis is called that begins at the beginning, or goes on; its steps stand within.
 const WHOLE = ["the whole diagnosis", "the rest of the diagnosis"];
@@ -150,7 +151,7 @@ export function show(root, context) {
         alike(),
         h("h2", {}, "Evidence"),
         sections(answer.page.sections),
-        warnings(answer.page.warnings),
+        warnings(answer.page.warnings, (text) => asked(text, answer.cells, context)),
         command(answer.command),
       ),
     );

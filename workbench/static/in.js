@@ -7,7 +7,7 @@ import { conditions, questions } from "./in_conditions.js";
 import { runs, unread } from "./in_runs.js";
 import { saveRow } from "./in_save.js";
 import { drop, get, post, put } from "./net.js";
-import { toCell } from "./to_cell.js";
+import { arrive, toCell } from "./to_cell.js";
 
 // The place of a role in campaign.toml.
 const ROLE = ["runs", "number", "columns", "role"];
@@ -50,6 +50,7 @@ export function show(root, context) {
     if (found && choices) {
       data = found;
       draw();
+      arrive();
     }
   }
 

@@ -105,7 +105,7 @@ export function show(root, context) {
         figures(),
         curves(),
         fails(result, context),
-        notes(result),
+        notes(result, context),
         command(result.command),
       ),
     );

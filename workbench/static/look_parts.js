@@ -1,6 +1,7 @@
 // Pieces of Look: the key figures, what a chart of a signal holds, single numbers, where the model fails.
 
 import { h, note, number, table, why, words } from "./dom.js";
+import { asked } from "./to_cell.js";
 
 const CLEAR = 3,
   FEW_FIGURES = 12;
@@ -208,13 +209,13 @@ export const fails = (result, context) =>
       )
     : h("p", { class: "lead" }, "No place, order or dependence carries a significant misfit.");
 
-export const notes = (result) =>
+export const notes = (result, context) =>
   result.warnings.length + result.calibrated.length > 0 &&
   h(
     "details",
     { open: result.warnings.length > 0 && result.warnings.length < 4 },
     h("summary", {}, `${result.warnings.length || "no"} note${result.warnings.length === 1 ? "" : "s"}${result.calibrated.length ? `, ${result.calibrated.length} calibrated` : ""}`),
-    result.warnings.map((t) => note(t)),
+    result.warnings.map((t) => note(asked(t, result.cells, context))),
     result.calibrated.length
       ? h(
           "div",

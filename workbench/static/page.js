@@ -45,13 +45,14 @@ export function sections(list, first = 0) {
   });
 }
 
-export const warnings = (list) =>
+// ``told`` makes of a warning what its note holds.
+export const warnings = (list, told = (text) => text) =>
   list.length
     ? h(
         "details",
         { open: list.length < 3 },
         h("summary", {}, `${list.length} note${list.length === 1 ? "" : "s"}`),
-        list.map((t) => note(t)),
+        list.map((t) => note(told(t))),
       )
     : null;
 

@@ -9,13 +9,38 @@ export const matters = ({ factors, quantities }, key, measured) => !(key in fact
 
 export const saysNothing = (key) => h("span", { class: "quiet", title: `${words(key)} says nothing of what was measured here` }, "–");
 
-// ``cell``: condition and key, among the proposal's conditions or those of campaign.toml itself.
-export function toCell([name, key]) {
-  const go = () => {
-    const place = document.getElementById(`c-${name}-${key}`) ?? document.getElementById(`cell-conditions-${name}-${key}`);
-    for (let around = place?.parentElement; around; around = around.parentElement) if (around.tagName === "DETAILS") around.open = true;
-    place?.scrollIntoView({ block: "center" });
-    place?.focus({ preventScroll: true });
-  };
-  return h("button", { type: "button", class: "to-cell", onclick: go }, `Say it: ${words(key)}`);
+// What another view asks for, until In is drawn.
+let wanted = null;
+
+// ``cell``: condition and key, among the proposal's conditions or those of campaign.toml itself; or a role alone: the first column that has it.
+const placeOf = ([name, key]) =>
+  key
+    ? (document.getElementById(`c-${name}-${key}`) ?? document.getElementById(`cell-conditions-${name}-${key}`))
+    : [...document.querySelectorAll('select[aria-label^="role of "]')].find((role) => role.value === name);
+
+function lead(cell) {
+  const place = placeOf(cell);
+  for (let around = place?.parentElement; around; around = around.parentElement) if (around.tagName === "DETAILS") around.open = true;
+  place?.scrollIntoView({ block: "center" });
+  place?.focus({ preventScroll: true });
 }
+
+const button = ([name, key], onclick) => h("button", { type: "button", class: "to-cell", onclick }, `Say it: ${key ? words(key) : `whose the ${words(name)} is`}`);
+
+export const toCell = (cell) => button(cell, () => lead(cell));
+
+// From a result: the cell is another view's.
+export const toCellOfIn = (cell, context) =>
+  button(cell, () => {
+    wanted = cell;
+    context.go("in");
+  });
+
+// In, drawn: whoever was sent here stands at the cell.
+export function arrive() {
+  if (wanted) lead(wanted);
+  wanted = null;
+}
+
+// A note of a result, with the way to what answers it.
+export const asked = (text, cells, context) => (cells?.[text] ? [text, " ", toCellOfIn(cells[text], context)] : [text]);

@@ -6,15 +6,28 @@ const plain = (value) => String(Number(value.toPrecision(4)));
 
 export function entry(e, { values, open, drawList, follow }) {
   const on = e.parameters.some((p) => p.name in values);
-  return h(
+  // What is drawn open anew stays where it is; what a hand opens is to be seen.
+  let byHand = false;
+  const item = h(
     "li",
     {},
     h(
       "details",
-      { open: on || open },
+      {
+        open: on || open,
+        ontoggle: (event) => {
+          if (byHand && event.target.open) item.scrollIntoView({ block: "nearest" });
+          byHand = false;
+        },
+      },
       h(
         "summary",
-        { title: e.law },
+        {
+          title: e.law,
+          onclick: () => {
+            byHand = true;
+          },
+        },
         e.title,
         on || e.carried
           ? h("span", { class: "tag good", style: { "margin-left": "6px" } }, e.carried ? (on ? "in the model, changed" : "in the model") : "on")
@@ -40,6 +53,7 @@ export function entry(e, { values, open, drawList, follow }) {
       e.source ? h("p", { class: "quiet small" }, `source: ${e.source}`) : null,
     ),
   );
+  return item;
 }
 
 // ``sensor_drift[hysteresis]`` as "sensor drift (hysteresis)": in square brackets stand units.
