@@ -4,9 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from zero_campaign import ARCSEC, HIDDEN, REDUCER, written
 
+from discrepancy.campaign.load import load_campaign
 from discrepancy.held_names import LOCKED_AT
+from discrepancy.model_file import load_model
 from discrepancy.prediction.locked_places import NEAR, LockedPlaces
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 
 RATIO, ZERO, NAME = 121.0, 0.012, "angle_zero[1]"
@@ -58,3 +62,27 @@ def test_what_counts_from_nowhere_stays(record):
     places = LockedPlaces([record], {NAME: 0.0}, RATIO)
     assert not places.place(OVAL, {NAME: 0.1})
     assert places.placed(record, OVAL) is record
+
+
+def test_closely_the_place_follows_the_values_without_being_taken():
+    record = loop()
+    places = LockedPlaces([record], {NAME: ZERO}, -RATIO)
+    there = {NAME: ZERO + 0.1 * NEAR / RATIO}
+    assert places.placed(record, OVAL, there).factors[LOCKED_AT] == pytest.approx(math.pi / 2.0 + 0.1 * NEAR, rel=1e-12)
+    # Of the base model, and where values say nothing of the zero, it stays.
+    assert places.placed(record, NOTHING, there) is record
+    assert places.placed(record, OVAL, {"disc_runout": 6e-6}) is record
+
+
+def test_loops_move_with_the_zero_of_a_fit_beside_an_effect(tmp_path):
+    """A zero that loops do not feel holds the effect where they were placed."""
+    model = PhysicalModel(load_model(REDUCER), load_campaign(written(tmp_path, loop=True)))
+    [held] = [i for i, r in enumerate(model.records) if r.quantity == "hysteresis"]
+    here = {**HIDDEN, NAME: model.zeros[NAME]}
+    there = {**here, NAME: model.zeros[NAME] + 0.5 * NEAR / model.bench.ratio}
+    moved = model.predict(there, [held])[0] - model.predict(here, [held])[0]
+    assert np.std(moved) > 0.01 * ARCSEC
+    [beside], [base] = model.predict_beside(there, here, [held]), model.predict_beside(here, here, [held])
+    assert np.allclose(beside - base, moved, atol=1e-3 * np.abs(moved).max())
+    # A search leaves them.
+    assert np.array_equal(model.predict_roughly(there, [held])[0], model.predict_roughly(here, [held])[0])

@@ -275,7 +275,7 @@ class PhysicalModel:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         curve = curve_of(measured)
-        record = self.placed(curve, asked)
+        record = self.placed(curve, asked, not rough)
         try:
             predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
@@ -348,11 +348,11 @@ class PhysicalModel:
         with self.locked_places.tried(effects, every), self.unstated_places.tried(effects, known):
             yield
 
-    def placed(self, record: Record, asked: Asked) -> Record:
-        """The record, as if locked where that is with the effects that are on."""
+    def placed(self, record: Record, asked: Asked, closely: bool = True) -> Record:
+        """The record, as if locked where that is with the effects that are on: ``closely`` by their own values, else as it was placed with such last."""
         if record.quantity not in HELD:
             return record
-        known = self.locked_waves.placed(self.locked_places.placed(record, asked.effects), asked.effects)
+        known = self.locked_waves.placed(self.locked_places.placed(record, asked.effects, asked.values if closely else None), asked.effects)
         return self.unstated_places.placed(known, asked.effects, asked.values)
 
     def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
