@@ -27,7 +27,8 @@ from benchmarks.blind_trial.tool import model_of
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.refit.effect_fit import fit_effects, in_earnest
+from discrepancy.inference.refit.effect_fit import fit_effects
+from discrepancy.inference.refit.in_earnest import in_earnest
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Candidate, Parameter
 

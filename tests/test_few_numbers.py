@@ -8,7 +8,8 @@ import pytest
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localiser
-from discrepancy.inference.refit.effect_fit import fit_effects, renew
+from discrepancy.inference.refit.effect_fit import fit_effects
+from discrepancy.inference.refit.in_earnest import renew
 from discrepancy.inference.refit.refit import finished, refit
 from discrepancy.inference.screening.screen import Block, Columns, Score, bounded_gain
 from discrepancy.inference.selection import Selection

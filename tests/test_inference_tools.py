@@ -224,6 +224,7 @@ def test_what_is_placed_beside_an_effect_is_placed_anew_when_its_fit_has_moved_o
         return SimpleNamespace(chi2=1.0, values={"a": 0.5 * (placed[-1] + 1.0)}, parameters=candidate.parameters), np.array([[0.04]])
 
     monkeypatch.setattr("discrepancy.inference.refit.refits.in_earnest", fitted)
+    monkeypatch.setattr("discrepancy.inference.refit.refits.followed", lambda space, fit, candidates, covariance: fitted(space, fit, candidates))
     monkeypatch.setattr("discrepancy.inference.refit.refits.finished", lambda space, chosen, fit, covariance: Refit(chosen, fit, 0.0, np.zeros(0), covariance))
     refits = Refits(SimpleNamespace(predictions=Settled(), model=None), [candidate])
     monkeypatch.setattr(refits, "otherwise", lambda result: result)

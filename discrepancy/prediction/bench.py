@@ -169,7 +169,7 @@ class Bench(Lives):
         return self.kept(key, run)
 
     def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
-                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0) -> Floats:
+                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0, starts: Starts | None = None) -> Floats:  # fmt: skip
         """Transmission error [rad] of a new reducer with ``values`` and cages ``cage`` ahead, to first order beside the run with ``base``."""
         relevant, before = self.relevant(values, False), self.relevant(base, False)
 
@@ -181,10 +181,10 @@ class Bench(Lives):
 
         def whole(setting: Condition) -> Floats:
             key = ("beside", setting, relevant, before, angles.tobytes(), base_angles.tobytes(), cage)
-            return self.kept(key, lambda: beside(setting, slice(None), self.running_places(setting, base, base_angles)[1]))
+            return self.kept(key, lambda: beside(setting, slice(None), self.running_places(setting, base, base_angles, 0.0, starts)[1]))
 
         def repeats(other: Condition, chosen: Places) -> bool:
-            series, places = self.running_places(other, base, base_angles)
+            series, places = self.running_places(other, base, base_angles, 0.0, starts)
             known = whole(other)
             return same(beside(condition, chosen, places[chosen]), known[chosen], known, series[:, coupled.COLUMNS.index("transmission_error")])
 

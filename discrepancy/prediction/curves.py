@@ -141,9 +141,9 @@ class OverAngle:
         anchor, beyond = self.anchored(values)
         return self.at_stations(anchor), lambda series: self.from_stations(series, beyond)
 
-    def beside(self, values: Values, base: Values, angles: Floats) -> Floats:
+    def beside(self, values: Values, base: Values, angles: Floats, starts: Starts | None = None) -> Floats:
         """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
-        high, low = (self.bench.error_beside(self.condition, v, angles, base, angles) for v in (values, base))
+        high, low = (self.bench.error_beside(self.condition, v, angles, base, angles, starts=starts) for v in (values, base))
         return high - low
 
     def at_stations(self, zero: float) -> Floats:
@@ -325,11 +325,14 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
     turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
-        anchor = curve.at_stations(curve.anchored(base)[0])
-        high, low = (bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, anchor) for v in (values, base))
+        anchor = curve.anchored(base)[0]
+        angles, starts = curve.at_stations(anchor), curve.starts(base, anchor)
+        high, low = (
+            bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, angles, starts=starts) for v in (values, base)
+        )
         return curve.from_stations(high - low, 0.0)
     angles, samples = curve.support(nodes, values)
-    change = samples(curve.beside(values, base, angles))
+    change = samples(curve.beside(values, base, angles, curve.starts(base, curve.anchored(values)[0]) if nodes is None else None))
     if turned:
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, **curve.unchanged(values)}) - signal(curve, base)

@@ -184,7 +184,7 @@ class FmuBench(Bench):
         raise NotImplementedError("an FMU shows no equilibria; ask for running")
 
     def error_beside(self, condition: Condition, values: Mapping[str, float], angles: Floats,
-                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0) -> Floats:
+                     base: Mapping[str, float], base_angles: Floats, cage: float = 0.0, starts: Starts | None = None) -> Floats:  # fmt: skip
         # There is no equilibrium to start from: the whole run.
         return self.running(condition, values, angles, cage)[:, COLUMNS.index("transmission_error")]
 

@@ -4,38 +4,30 @@ Nuisances are close to linear around the base fit, so an effect is first fitted 
 sensitivities frozen, and the result is then polished with full predictions.
 """
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from operator import itemgetter
 
 import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.curvature import by_secants
 from discrepancy.inference.refit.frozen import HOPE, Frozen
 from discrepancy.inference.refit.secants import Secants
 from discrepancy.inference.refit.starts import MOST_AMPLITUDES, alone, along_valley, halved, other_starts
 from discrepancy.problem import Candidate, Parameter, Placing, near
 from fmu_src.arrays import Floats
 
-TURN = 2.0 * math.pi
 MISLED = 0.2
 """Share of the promised gain that may be missing before the frozen sensitivities are held to have misled."""
 JOINT_STEPS = 15
-# A reported fit of which a further step promises more than this chi-square is not one yet.
-UNSETTLED = 0.5
-# So many predictions it then may take.
-LAST_STEPS = 30
 # So often the sensitivities of a joint fit are taken anew in a search; between, its steps tell.
 EXACT_EVERY = 3
 # Shortenings of one step of a joint fit.
 MOST_DAMPED = 6
 # Of what a descent must still gain, what it gains at least from sensitivities that are taken anew; else it will not in the steps that it has.
 STUCK = 0.02
-# A fit that is reported is renewed so often, until its chi-square stands still by this.
-RENEWALS, STILL = 4, 2e-3
+# A fit stands still when its chi-square falls by less than this.
+STILL = 2e-3
 # A search stands still by this already.
 ROUGHLY_STILL = 0.1
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
@@ -62,21 +54,21 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     values, converged, columns = _search(frozen, candidates, begins, widely)
     anew = _off(nuisances) | begins[0]
     if frozen.misled and not widely:
-        return _kept_if_better(space, _jointly(space, parameters, anew, names, least=least), own)
+        return _kept_if_better(space, jointly(space, parameters, anew, names, least=least), own)
     promised, residual = frozen.cost(values)
     full = {**frozen.nuisances_with(residual), **values}
-    if _cost(space, Box(parameters), full)[0] > space.base.chi2:
+    if total_cost(space, Box(parameters), full)[0] > space.base.chi2:
         # Too far for frozen sensitivities: from the base fit's nuisances.
         full = {**frozen.theta, **values}
     every = np.column_stack([frozen.jacobian, columns])
     if frozen.hopeless(promised, *frozen.equations(frozen.part.array(values), residual, columns)):
         return fit_of(parameters, full, space.residual(full), every, names, False)
-    found = _polish(space, parameters, full, every, names, converged, promised)
+    found = polish(space, parameters, full, every, names, converged, promised)
     if found.chi2 < space.base.chi2:
         found = _finished(space, found, least)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
-        found = min(found, _jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
+        found = min(found, jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
     if widely:
         found = _from_elsewhere(space, found, candidates, least)
     return _kept_if_better(space, found, own)
@@ -110,9 +102,9 @@ def _from_elsewhere(space: Workspace, fit: Fit, candidates: Sequence[Candidate],
         start: Mapping[str, float] = {**off, **form, **places}
         if len(sure) < len(space.training):
             # What stands nobody knows where follows: it would hold the effects where it shows least of them.
-            start = _jointly(space.only(sure), fit.parameters, start, fit.candidates).values
+            start = jointly(space.only(sure), fit.parameters, start, fit.candidates).values
             space.predictions.settle(start)
-        fit = min(fit, _jointly(space, fit.parameters, start, fit.candidates), key=lambda f: f.chi2)
+        fit = min(fit, jointly(space, fit.parameters, start, fit.candidates), key=lambda f: f.chi2)
     return fit
 
 
@@ -120,64 +112,29 @@ def _finished(space: Workspace, fit: Fit, least: float) -> Fit:
     """A fit that is searched for, by sensitivities at its own values where those of the base fit have left it half-way; not one that will
     not come below ``least``."""
     for _ in range(ANEW):
-        promised = _promised(fit)
+        promised = still_promised(fit)
         if promised < UNFINISHED or not may_reach(fit, least):
             break
-        before, fit = fit.chi2, _anew(space, fit, fit.candidates)
+        before, fit = fit.chi2, by_own_sensitivities(space, fit, fit.candidates)
         if before - fit.chi2 < UNFINISHED:
             break
     return fit
 
 
-def _anew(space: Workspace, fit: Fit, names: tuple[str, ...]) -> Fit:
+def by_own_sensitivities(space: Workspace, fit: Fit, names: tuple[str, ...]) -> Fit:
     """The fit polished by sensitivities at its own values."""
     columns = space.columns(fit.parameters, fit.values)
-    return _polish(space, fit.parameters, fit.values, columns, names, fit.converged, fit.chi2, fresh=True)
-
-
-def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
-    """The same fit with sensitivities at its own values: for what is reported."""
-    for _ in range(RENEWALS):
-        renewed = _anew(space, fit, tuple(c.name for c in candidates))
-        gain, fit = fit.chi2 - renewed.chi2, renewed
-        if gain < STILL:
-            break
-    if _promised(fit) > UNSETTLED:
-        # Along a bent valley single steps get stuck.
-        start = {p.name: fit.values[p.name] for p in fit.parameters}
-        fit = min(fit, _jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1), key=lambda f: f.chi2)
-    return fit
-
-
-def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> tuple[Fit, Floats]:
-    """The fit as it is reported and the covariance (p, p) of its parameters.
-
-    Last steps go by sensitivities over a standard deviation: over kinks, at which those of a point stand still.
-    """
-    fit = there(space, turned_back(space, fit, candidates))
-    for _ in range(RENEWALS):
-        with near(fit.values), space.predictions.anchored(fit.values):
-            renewed = renew(space, fit, candidates)
-        before, found = fit.chi2, there(space, renewed)
-        fit = min(fit, found, key=lambda f: f.chi2)
-        # Seen from where it began it may have looked better than it is.
-        if abs(found.chi2 - renewed.chi2) < STILL or before - fit.chi2 < STILL:
-            break
-    with near(fit.values), space.predictions.anchored(fit.values):
-        columns, covariance = by_secants(space, fit, candidates)
-        polished = _polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2)
-    fit = fit_of(fit.parameters, fit.values, fit.residual, columns, fit.candidates, fit.converged)
-    return min(fit, there(space, polished), key=lambda f: f.chi2), covariance
+    return polish(space, fit.parameters, fit.values, columns, names, fit.converged, fit.chi2, fresh=True)
 
 
 def from_there(space: Workspace, fit: Fit, values: Mapping[str, float]) -> Fit:
     """The fit of the records of ``space`` from other values, all parameters together."""
-    return _jointly(space, fit.parameters, values, fit.candidates)
+    return jointly(space, fit.parameters, values, fit.candidates)
 
 
 def left_by(space: Workspace, fit: Fit) -> float:
     """Chi-square of the records of ``space`` with the values of a fit."""
-    return _cost(space, Box(fit.parameters), fit.values)[0]
+    return total_cost(space, Box(fit.parameters), fit.values)[0]
 
 
 def there(space: Workspace, fit: Fit) -> Fit:
@@ -185,24 +142,12 @@ def there(space: Workspace, fit: Fit) -> Fit:
     return fit_of(fit.parameters, fit.values, space.residual(fit.values), fit.jacobian, fit.candidates, fit.converged)
 
 
-def turned_back(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
-    """Angles without bounds worth the name, which a search may have turned round several times, within half a turn of 0."""
-    angles = [p.name for c in candidates for p in c.shapes if p.unit == "rad" and p.upper - p.lower > 2.0 * TURN]
-    values = {**fit.values, **{name: math.remainder(fit.values[name], TURN) for name in angles if abs(fit.values[name]) > 0.5 * TURN}}
-    if values == fit.values:
-        return fit
-    box = Box(fit.parameters)
-    # What stands behind a gear has another period.
-    same = abs(_cost(space, box, values)[0] - _cost(space, box, fit.values)[0]) < STILL
-    return replace(fit, values=values) if same else fit
-
-
 def may_reach(fit: Fit, least: float) -> bool:
     """Whether a fit may come below the chi-square ``least`` by more steps, by what the next one promises."""
-    return fit.chi2 - HOPE * _promised(fit) < least
+    return fit.chi2 - HOPE * still_promised(fit) < least
 
 
-def _promised(fit: Fit) -> float:
+def still_promised(fit: Fit) -> float:
     """What another step would gain in chi-square if all were linear."""
     box = Box(fit.parameters)
     normal, gradient = fit.normal * np.outer(box.scale, box.scale), fit.gradient * box.scale
@@ -295,20 +240,20 @@ def _descend(frozen: Frozen, values: Mapping[str, float], iterations: int = 12) 
     return box.named(x), converged, c
 
 
-def _cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, Floats]:
+def total_cost(space: Workspace, box: Box, values: Mapping[str, float]) -> tuple[float, Floats]:
     """Chi-square with the priors, and the whitened residual."""
     r = space.residual(values)
     return float(r @ r) + box.prior_cost(box.array(values)), r
 
 
-def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: Floats, candidates: tuple[str, ...],
+def polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[str, float], columns: Floats, candidates: tuple[str, ...],
             converged: bool, expected: float, fresh: bool = False) -> Fit:  # fmt: skip
     """Full predictions until the chi-square stands still; sensitivities are renewed where the frozen ones mislead."""
     box = Box(parameters)
     x = box.array(values)
 
     def cost_of(z: Floats) -> tuple[float, Floats]:
-        return _cost(space, box, box.named(z))
+        return total_cost(space, box, box.named(z))
 
     cost, r = cost_of(x)
     rough = space.predictions.rough
@@ -336,7 +281,7 @@ def _polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[s
     return fit_of(parameters, box.named(x), r, columns, candidates, converged)
 
 
-def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...],
+def jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...],
              evaluations: int = JOINT_STEPS, exact_every: int = EXACT_EVERY, least: float = np.inf) -> Fit:  # fmt: skip
     """All parameters together, with sensitivities that follow, after Levenberg and Marquardt: dear, but from anywhere and along bent valleys.
 
@@ -346,7 +291,7 @@ def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[s
     secants = Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
 
     def cost_of(z: Floats) -> tuple[float, Floats]:
-        cost, r = _cost(space, box, box.named(z))
+        cost, r = total_cost(space, box, box.named(z))
         secants.seen(z, r)
         return cost, r
 
@@ -365,7 +310,8 @@ def _jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[s
         shift = np.diag(np.maximum(np.diag(normal), 1e-9 * np.max(np.diag(normal)) + 1e-300))
         for _ in range(MOST_DAMPED):
             trial = np.clip(x + box.step(x, normal + damping * shift, gradient), box.lower, box.upper)
-            new, new_r = cost_of(trial)
+            with near(box.named(x)):
+                new, new_r = cost_of(trial)
             spent += 1
             if new < cost:
                 break

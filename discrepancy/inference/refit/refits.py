@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, in_earnest, left_by, there
+from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, left_by, there
+from discrepancy.inference.refit.in_earnest import followed, in_earnest
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Placing
@@ -94,7 +95,7 @@ class Refits:
             if not (self.space.predictions.unsettled(better.fit.values) or self.has_moved(key, better)):
                 break
             self.settle(key, better)
-            better = finished(self.space, result.candidates, *in_earnest(self.space, better.fit, result.candidates))
+            better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
         for _ in range(AGAIN):
             other = self.otherwise(better)
             if other.fit.chi2 > better.fit.chi2 - BETTER:
