@@ -12,6 +12,7 @@ USUAL_RANGE = {"transmission_error": math.radians(0.5 / 60.0), "hysteresis": mat
 ANGLES = {"arcsec": math.radians(1.0 / 3600.0), "arcmin": math.radians(1.0 / 60.0), "deg": math.radians(1.0), "rad": 1.0}
 # Above this speed [rpm] no output of such a reducer turns (assumed).
 FASTEST_OUTPUT = 120.0
+SIZES = {"input_speed": "faster than outputs turn", "output_speed": "slow enough for the output"}
 # A clock that counts from 1970 has more than so many seconds, and more of the parts of one.
 EPOCH = 1e9
 CLOCKS = {"ns": 1e18, "us": 1e15, "ms": 1e12, "s": EPOCH}
@@ -55,4 +56,4 @@ def angle_unit(shape: Shape) -> str:
 def speed_role(high: float) -> Guess[str]:
     """At input or output, by the size of the speed [rpm]."""
     role = "input_speed" if high > FASTEST_OUTPUT else "output_speed"
-    return Guess(role, f"{high:.4g} rpm is {'faster than outputs turn' if role == 'input_speed' else 'slow enough for the output'}", False)
+    return Guess(role, f"{high:.4g} rpm is {SIZES[role]}", False)

@@ -3,9 +3,10 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeGuard
 
 from discrepancy.campaign.guess.run import GuessedRun
-from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize
 from discrepancy.campaign.guess.set_steps import MEASURED, SHARE_STEP, TEMPERATURE_STEP, spans_no_step, step_at
 from discrepancy.campaign.guess.wishes import Wishes
 
@@ -19,7 +20,7 @@ def with_given_instead(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Guess
         for key in run.above:
             if pair := given.get("put_speed" if key.endswith("put_speed") else key):
                 own = factors.pop(key).value
-                doubts = [doubt for doubt in doubts if not doubt.text.startswith(of_side(own, key))]
+                doubts = [doubt for doubt in doubts if not is_of(doubt, own, key)]
                 if not (pair[0] == key and near(key, own, pair[1])):
                     text = f"a line above its table says {key} = {own}; {pair[0]} = {pair[1]}, which is given for all files, counts"
                     doubts.append(Doubt(run.path.name, text, f"--condition 'NAME:{pair[0]}={pair[1]}' for single conditions instead"))
@@ -97,15 +98,16 @@ def joined_run(run: GuessedRun, key: str, one: str, span: str) -> GuessedRun:
     least = f"{TEMPERATURE_STEP:g} K" if key == "temperature" else f"{100.0 * SHARE_STEP:g} %"
     why = f"{span} above the tables is one number that was measured: nobody sets less than {least} apart (assumed)"
     text = f"{key} = {span} above the tables is taken for {one}, each run keeping its own: nobody sets less than {least} apart (assumed)"
-    doubts = [replace(d, text=d.text.replace(own.value, one)) if d.text.startswith(of_side(own.value, key)) else d for d in run.doubts]
+    doubts = [replace(d, text=d.text.replace(own.value, one), speed=one) if is_of(d, own.value, key) else d for d in run.doubts]
     doubt = Doubt(run.path.name, text, "--names with {condition} in it if these are conditions of their own")
     actual = dict(run.actual) | ({key: own.value} if own.value != one else {})
     return replace(run, factors={**run.factors, key: Guess(one, f"{own.reason}; {why}", False)}, actual=actual, doubts=(*doubts, doubt))
 
 
-def of_side(text: str, key: str) -> str:
-    """How the doubt begins by which a speed was taken for one of a shaft."""
-    return f"{text} is taken for the {key}:"
+def is_of(doubt: Doubt, speed: str, key: str) -> TypeGuard[SpeedBySize]:
+    """Whether this doubts that a speed is one of the shaft of ``key``."""
+    return isinstance(doubt, SpeedBySize) and (doubt.speed, doubt.key) == (speed, key)
+
 
 
 def near(key: str, own: str, given: str) -> bool:

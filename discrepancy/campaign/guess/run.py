@@ -15,9 +15,9 @@ from discrepancy.campaign.guess.given_names import parsed
 from discrepancy.campaign.guess.header_units import name_of, unknown_in
 from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.locked_words import held_angle, locked_angle
-from discrepancy.campaign.guess.magnitudes import speed_role, unit_by_size
+from discrepancy.campaign.guess.magnitudes import SIZES, speed_role, unit_by_size
 from discrepancy.campaign.guess.name_and_head import contradiction, is_measured
-from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize
 from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
 from discrepancy.campaign.guess.table import Table, table_of
@@ -334,7 +334,8 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
             if not sure:
                 other = "output_speed" if key == "input_speed" else "input_speed"
                 remedy = f"--names with {{{other}}} in its place, or correct the condition"
-                doubts.append(Doubt(path.name, f"{text} is taken for the {key}: {side.reason}", remedy))
+                told = f"{text} is taken for the {key}: {side.reason}"
+                doubts.append(SpeedBySize(path.name, told, remedy, text, key, SIZES[key]))
     if name.direction:
         found["direction"] = Guess(name.direction, f"the file's name, by {name.pattern!r}")
     if name.mounting:

@@ -27,4 +27,13 @@ class Doubt:
     remedy: str
 
     def as_json(self) -> dict[str, str]:
-        return vars(self).copy()
+        return {"place": self.place, "text": self.text, "remedy": self.remedy}
+
+
+@dataclass(frozen=True)
+class SpeedBySize(Doubt):
+    """A ``speed`` ("600 rpm") that was taken for ``key`` by its size alone, which is ``size`` ("faster than outputs turn")."""
+
+    speed: str
+    key: str
+    size: str

@@ -1,13 +1,10 @@
 """Doubts that several files give rise to, told once."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from discrepancy.campaign.guess.said import Doubt
-
-# How a doubt begins by which a speed was taken for that of a shaft because of its size alone.
-BY_SIZE = re.compile(r"(?P<number>\S+) (?P<unit>.+) is taken for the (?P<key>\w+): \S+ rpm is (?P<reason>.+)")
+from discrepancy.campaign.guess.said import Doubt, SpeedBySize
 
 
 def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
@@ -20,17 +17,19 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
 
 def with_speeds_together(doubts: Sequence[Doubt]) -> list[Doubt]:
     """Doubts of several speeds for one reason, each with all of them: ``600 and 1500 rpm are taken for the input_speed: each is faster than outputs turn``."""
-    found = [BY_SIZE.fullmatch(doubt.text) for doubt in doubts]
-    numbers: dict[tuple[str, ...], set[str]] = {}
-    for match in filter(None, found):
-        numbers.setdefault(match.group("unit", "key", "reason"), set()).add(match["number"])
-    texts = [doubt.text if match is None else speeds_text(match, numbers[match.group("unit", "key", "reason")]) for doubt, match in zip(doubts, found)]
-    return [replace(doubt, text=text) for doubt, text in zip(doubts, texts)]
+    speeds: dict[tuple[str, str], dict[str, float]] = {}
+    for doubt in doubts:
+        if isinstance(doubt, SpeedBySize):
+            number, unit = doubt.speed.split(" ", 1)
+            speeds.setdefault((unit, doubt.key), {})[number] = float(number)
+    return [replace(doubt, text=speeds_text(doubt, speeds)) if isinstance(doubt, SpeedBySize) else doubt for doubt in doubts]
 
 
-def speeds_text(match: re.Match[str], numbers: set[str]) -> str:
+def speeds_text(doubt: SpeedBySize, speeds: Mapping[tuple[str, str], Mapping[str, float]]) -> str:
     """What is told of a speed where others were taken for the same."""
-    if len(numbers) == 1:
-        return match[0]
-    *others, last = sorted(numbers, key=float)
-    return f"{', '.join(others)} and {last} {match['unit']} are taken for the {match['key']}: each is {match['reason']}"
+    unit = doubt.speed.split(" ", 1)[1]
+    alike = speeds[unit, doubt.key]
+    if len(alike) == 1:
+        return doubt.text
+    *others, last = sorted(alike, key=lambda number: alike[number])
+    return f"{', '.join(others)} and {last} {unit} are taken for the {doubt.key}: each is {doubt.size}"
