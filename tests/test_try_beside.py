@@ -1,17 +1,20 @@
 """Try: a large effect stands where a diagnosis of the same measurements has found zero, lag and cages; without one the page says that it does not."""
 
+import math
+
 import numpy as np
 import pytest
-from zero_campaign import HIDDEN, NAME, REDUCER, written
+from zero_campaign import HIDDEN, NAME, REDUCER, TURNED, ZERO, written
 
 from discrepancy.campaign.load import load_campaign
+from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.remembered import place_of, write
 from discrepancy.verdict import diagnose
-from workbench.beside import fewer
+from workbench.beside import Known, fewer
 from workbench.folder import Folder
 from workbench.thinned import thinned
 from workbench.trying import Trial
@@ -60,3 +63,23 @@ def test_what_cages_add_is_thinned_as_the_run_is(folder):
     ripple = np.arange(float(count))
     few = fewer(ripple, record, campaign)
     np.testing.assert_allclose(thinned(record).axes["angle"], record.axes["angle"][few.astype(int)])
+
+
+def test_loops_are_locked_where_the_last_comparison_has_the_zero(folder, cache):
+    """The pattern alone told the zero roughly: a loop of a model with a large effect stood 4 deg of the input beside, 7 times its noise off."""
+    before = Trial().opened(folder, REDUCER).model
+    zero = before.zeros[ZERO] + math.radians(3.0) / before.bench.ratio
+    folder.remember("jobs/compare/result", {"model": REDUCER, "nuisances": {ZERO: zero}})
+    [place] = [r.factors[LOCKED_AT] for r in before.records if r.quantity == "hysteresis"]
+    after = Trial().opened(folder, REDUCER).model
+    [loop] = [r for r in after.records if r.quantity == "hysteresis"]
+    assert after.as_seen(loop, after.standing())[0].factors[LOCKED_AT] == pytest.approx(place + math.radians(3.0))
+
+
+def test_of_a_large_effect_nothing_is_left_that_a_rough_look_would(folder, cache):
+    trial = Trial()
+    trial.opened(folder, REDUCER).known = [Known(frozenset(HIDDEN), "discs off centre", {ZERO: TURNED})]
+    for row in trial.everywhere(folder, REDUCER, HIDDEN):
+        if row["signal"] == "transmission_error":
+            exact = tried(trial, folder, "at_160_1", HIDDEN)["rms"][1]
+            assert float(row["after"].split()[0]) < 1.5 * exact

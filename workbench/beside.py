@@ -43,6 +43,14 @@ class Beside:
     def __post_init__(self) -> None:
         self.place = remembered.place_of(self.model.file, self.campaign, Settings())
         self.seen = 0
+        self.standing: Mapping[str, float] = {}
+
+    def stand(self, standing: Mapping[str, float]) -> None:
+        """Takes what is calibrated first, by ``standing``: loops are locked where its zero has them, which the pattern alone told roughly."""
+        if standing != self.standing:
+            self.standing = dict(standing)
+            if self.model.stands_elsewhere(standing):
+                self.model.settle(standing)
 
     def refresh(self) -> None:
         """Takes what a diagnosis has found since, if there was one."""

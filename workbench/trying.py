@@ -53,6 +53,7 @@ class Trial:
                 self.models.pop(next(iter(self.models)))
         self.models[key] = found
         found.refresh()
+        found.stand(self.standing(folder, model, found.model))
         return found
 
     def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
@@ -123,7 +124,10 @@ class Trial:
             return words, np.array([x, *(factor * curve for curve in curves)])
 
     def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
-        """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition."""
+        """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition.
+
+        Of a new reducer exactly: of a large change a rough look leaves more than a bench's noise.  A life is dear, and looked at roughly.
+        """
         with self.lock:
             beside = self.opened(folder, model)
             found = beside.model
@@ -138,7 +142,8 @@ class Trial:
                 if key in seen:
                     continue
                 seen.add(key)
-                base, tried = own_curve(found, record, standing, True), own_curve(found, record, calibrated | own, True)
+                roughly = is_worn(record)
+                base, tried = own_curve(found, record, standing, roughly), own_curve(found, record, calibrated | own, roughly)
                 units[key[0]] = record.unit
                 cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
         rows = []
@@ -153,6 +158,10 @@ class Trial:
 def own_curve(model: PhysicalModel, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:
     """What is shown of a record: each curve from its own zero."""
     return at_own_zero(record, model.one(record, values, rough=rough), model.nuisances)
+
+
+def is_worn(record: Record) -> bool:
+    return bool(np.any(np.asarray(record.axes.get("hours", record.factors.get("hours", 0.0))) > 0.0))
 
 
 def run_of(model: PhysicalModel, run: str) -> Record:
