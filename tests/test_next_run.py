@@ -141,6 +141,13 @@ def test_of_what_is_left_only_what_was_tried_is_said(names, said):
     assert Answer.left_over.fget(answer) == said
 
 
+def test_what_one_effect_may_come_from_is_said():
+    """An oval ring may have been ground so or be clamped so: `campaign check` asked for the ring to be turned, and nothing was left to ask here."""
+    error = Record("te", "transmission_error", "rad", "c", 1, np.zeros(5), {"angle": np.linspace(0.0, 7.0, 5)}, {"direction": 1.0})
+    said = proposal_for(answer_of(ONE, ["pin_position_errors"]), replace(CAMPAIGN, records=(error,), conditions={"c": SimpleNamespace(interventions=())})).verdict
+    assert "whether it is pin position errors, or ring ovality or clamping, this campaign does not tell" in said and "turn the ring" in said
+
+
 def test_nothing_is_left_after_one_effect_or_none():
     assert proposal_for(answer_of(ONE, ["thermal_expansion"]), CAMPAIGN).verdict == "nothing is left to separate: thermal expansion stands alone"
     # What came nearest to nothing is no suspect.

@@ -23,13 +23,14 @@ class Need:
 
 @dataclass(frozen=True)
 class Pair:
-    """Effects that are hard to separate; ``signals`` are the quantities in which both show."""
+    """Effects that are hard to separate; ``signals`` are the quantities in which both show.  ``within``: the one effect of the catalogue that both are."""
 
     number: int
     effects: tuple[str, ...]
     experiment: str
     signals: tuple[str, ...]
     alternatives: tuple[tuple[Need, ...], ...]
+    within: str = ""
 
 
 @dataclass(frozen=True)
@@ -117,8 +118,8 @@ PAIRS = (
          "stiffness at 10, 50, 100 and 200 % of the rated torque: contacts stiffen, the housing does not",
          ("hysteresis", "torsional_stiffness", "lost_motion"), ((WIDE_TORQUES,),)),
     Pair(8, ("pin position errors", "ring ovality or clamping"),
-         "one output turn or more (better three), then turn the ring by some pins or clamp it anew",
-         ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),)),
+         "one output turn or more (better three), then turn the ring by some pins, or clamp it anew: pins go with it, what the housing does stays",
+         ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),), "pin_position_errors"),
     Pair(9, ("encoder eccentricity", "carrier run-out"), "turn the encoder on its shaft, or use two reading heads",
          ("transmission_error",), ((intervention("encoder_turned", "transmission_error"),), (TWO_MOUNTINGS,))),
     Pair(10, ("load-dependent wear exponent", "slip depending on load"), "wear at two loads, and the cage's speed",
