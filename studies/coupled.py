@@ -52,12 +52,14 @@ def step_pair(plants, wears, time, duration):
 
 
 @kernel
-def run_pair(plants, wears, steps, duration):
-    """``steps`` equal communication steps of ``duration`` [s] each."""
+def run_pair(plants, wears, steps, duration, errors):
+    """``steps`` equal communication steps of ``duration`` [s] each; the transmission error [rad] after each, if ``errors`` has room for it."""
     for i in range(steps):
         plant_status, wear_status = step_pair(plants, wears, i * duration, duration)
         if plant_status != 0 or wear_status != 0:
             return plant_status, wear_status
+        if errors.shape[0] > 0:
+            errors[i] = plants[0].transmission_error
     return 0, 0
 
 

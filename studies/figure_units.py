@@ -14,6 +14,14 @@ WIDTHS = "loop width: at no torque, the way through the clearances in it; its me
 # Two transmission errors of one turn likewise, whose names tell them apart only to who knows that there are two.
 WHICH_ERROR = {"transmission_error_pp_arcsec": "second stage alone, against the cranks", "transmission_error_at_input_pp_arcsec": "whole, against the input"}
 
+# The third is what a life tells: of errors that are fixed to the ring one crank turn shows what lies where the output then stands.
+OVER_TURN = "transmission_error_over_turn_pp_arcsec"
+WINDOW = "over one crank turn, where the output then stands"
+WHAT_IS_OVER_TURN = "TE p-p (transmission error): over one turn of the output; force, teeth, lag and stiffness: " + WINDOW
+OF_LIVES = {name: f"transmission error peak to peak, {which}, {WINDOW}" for name, which in WHICH_ERROR.items()} | {
+    OVER_TURN: "transmission error peak to peak, whole, against the input, over one turn of the output; between first and last hour as the jumps show it",
+}  # fmt: skip
+
 
 def figure_unit(name: str) -> str:
     """Unit of a figure, from the ending of its name; "1" if it has none."""

@@ -100,6 +100,7 @@ def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint:
         if checkpoint and resume:
             lived, saved = load_checkpoint(checkpoint, wanted.inputs)
             pair.master.restore(saved)
+        lived.over_turn = lived.over_turn or [[0.0, swing] for swing in results.swings(first_orders).values()]
         with task("hours of life", total=round(wanted.life.hours)) as hours:
 
             def show(state: Life) -> None:

@@ -9,16 +9,18 @@ within ``tolerance`` of the depth at the end.  The finer run is kept.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from rv_plant.faults import DYNAMIC
+from studies.coupled_master import CoupledMaster
 from studies.pair import Pair
-from studies.solve import Turn, measure
+from studies.solve import ARCSEC, Turn, measure
 from studies.swing import swing_damping
 
 HOUR = 3600.0
@@ -94,7 +96,9 @@ class Life:
     """What a life run has found so far, one entry per recorded hour of the present run.
 
     ``start`` is the state of the new pair; ``coarse`` holds the watched depths [um] of the run before, whose error
-    was ``error_before``.
+    was ``error_before``.  ``over_turn`` has rows of hours and the transmission error's peak to peak over a turn of the
+    output [arcsec]: of each jump but the first, at the middle of its hours, and at 0 h, if that is known; ``drifted``: hours
+    from and to, and how far the output went on in the last jump [rad], if there was one.
     """
 
     settings: LifeSettings
@@ -108,6 +112,8 @@ class Life:
     coarse: list[list[float]] = field(default_factory=list)
     error_before: float = math.inf
     start: dict[str, Any] | None = None
+    over_turn: list[list[float]] = field(default_factory=list)
+    drifted: list[float] = field(default_factory=list)
 
     def note(self, pair: Pair) -> None:
         """Record the present state of the pair."""
@@ -125,9 +131,32 @@ class Life:
         return [[figures[name] for name in WATCHED] for figures in self.figures]
 
     def forget(self) -> None:
-        """No recorded hours."""
+        """No recorded hours; what a new reducer has over a turn stays known."""
         for rows in (self.hours, self.figures, self.surfaces, self.turns, self.errors):
             rows.clear()
+        self.over_turn, self.drifted = [row for row in self.over_turn if row[0] == 0.0], []
+
+    def note_turn(self, span: float, errors: Floats, positions: int) -> None:
+        """The transmission error [rad] of the jump that was recorded last; ``span``: hours of the cycle that it is of.
+
+        How the output falls behind within a jump is told from this jump and the one before, so the first gives none.
+        """
+        end, before = self.hours[-1], self.drifted
+        self.drifted = [end - span, end, drift_of(errors, positions)]
+        if before:
+            self.over_turn.append([end - 0.5 * span, swing_over_turn(errors, positions, before, self.drifted)])
+
+    def over_turn_at_hours(self, known: Mapping[float, float] | None = None) -> list[float]:
+        """Transmission error's peak to peak over a turn of the output at each recorded hour [arcsec].
+
+        Between jumps straight from one to the next, and through hours at which it is ``known``; NaN if there was no jump.
+        """
+        swings = {row[0]: row[1] for row in self.over_turn} | dict(known or {})
+        if not swings:
+            return [math.nan] * len(self.hours)
+        hours = sorted(swings)
+        found: list[float] = np.interp(self.hours, hours, [swings[hour] for hour in hours]).tolist()
+        return found
 
 
 def wear_figures(record: np.ndarray) -> dict[str, float]:
@@ -178,8 +207,10 @@ def signed_degrees(angle: float) -> float:
     return degrees - 360.0 if degrees > 180.0 else degrees
 
 
-def run_cycle(pair: Pair, hours: float) -> None:
+def run_cycle(pair: Pair, hours: float) -> tuple[float, Floats]:
     """One full meshing cycle that counts as ``hours``; with a duty, cycles of its segments by their shares.
+
+    Returned are the hours of the last cycle and its transmission error after each step [rad].
 
     Segments really alternate all the time.  Run one after the other, the first would find
     the surfaces less run in than the last, an error that goes with the hours.  There and
@@ -187,17 +218,17 @@ def run_cycle(pair: Pair, hours: float) -> None:
     the hours' square.
     """
     if not pair.duty:
-        count_cycle(pair, hours)
-        return
+        return hours, count_cycle(pair, hours)
     *outer, last = pair.duty
     there = [(segment, 0.5 * segment.share) for segment in outer]
     for segment, share in [*there, (last, last.share), *reversed(there)]:
         pair.set_operation(segment.speed, segment.torque)
-        count_cycle(pair, hours * share)
+        span, errors = hours * share, count_cycle(pair, hours * share)
+    return span, errors
 
 
-def count_cycle(pair: Pair, hours: float) -> None:
-    """One full meshing cycle at the present speed and torque.
+def count_cycle(pair: Pair, hours: float) -> Floats:
+    """One full meshing cycle at the present speed and torque; the transmission error after each step [rad].
 
     Wear rises through the first crank turn and falls through one turn more.  A contact that the cycle meets early
     in each turn is then as old on average as one that it meets late; cut off sharply, the two would differ by
@@ -207,17 +238,48 @@ def count_cycle(pair: Pair, hours: float) -> None:
     steps = pair.reducer.topology.lobes * positions
     full = hours * HOUR / (steps * pair.master.step_size)
     rise = (np.arange(positions) + 0.5) / positions
-    for share in rise:
-        count_steps(pair, full * share, 1)
-    count_steps(pair, full, steps - positions)
-    for share in rise[::-1]:
-        count_steps(pair, full * share, 1)
+    errors = [count_steps(pair, full * share, 1) for share in rise]
+    errors.append(count_steps(pair, full, steps - positions))
+    errors += [count_steps(pair, full * share, 1) for share in rise[::-1]]
+    return np.concatenate(errors)
 
 
-def count_steps(pair: Pair, acceleration: float, steps: int) -> None:
-    """Steps whose wear, time and distance count ``acceleration`` times."""
+def count_steps(pair: Pair, acceleration: float, steps: int) -> Floats:
+    """Steps whose wear, time and distance count ``acceleration`` times; the transmission error after each [rad]."""
     pair.wear.set("acceleration", acceleration)
-    pair.master.run(steps)
+    errors = np.zeros(steps)
+    if isinstance(pair.master, CoupledMaster) and pair.master.scheme == "gauss-seidel":
+        pair.master.run_compiled(steps, errors)
+        return errors
+    buffer, done = np.zeros(1), pair.master.steps_done
+    read = pair.plant.reader(pair.plant.signal("transmission_error").references[:1], buffer)
+
+    def keep() -> None:
+        read()
+        errors[pair.master.steps_done - 1 - done] = buffer[0]
+
+    pair.master.run(steps, keep)
+    return errors
+
+
+def drift_of(errors: Floats, positions: int) -> float:
+    """How far the output went on by wear [rad] in a cycle, which ends with a crank turn where it began."""
+    turn = len(errors) - positions
+    return float((errors[turn:] - errors[:positions]).mean())
+
+
+def swing_over_turn(errors: Floats, positions: int, before: Sequence[float], now: Sequence[float]) -> float:
+    """Peak to peak [arcsec] over a turn of the output, less how the output falls behind while the jump wears it.
+
+    ``before`` and ``now``: hours from and to, and drift [rad], of the jump before and of this one.  With a times the root
+    of the hours and b times the hours both are met: parts that run in wear fast at first, which a straight line would leave in the error.
+    """
+    rows = np.array([[math.sqrt(end) - math.sqrt(max(start, 0.0)), end - start] for start, end, _ in (before, now)])
+    a, b = np.linalg.solve(rows, [before[2], now[2]])
+    turn = len(errors) - positions
+    passed = np.arange(turn) - 0.5 * positions
+    hours = now[0] + (now[1] - now[0]) * np.clip(passed / turn, 0.0, 1.0)
+    return float(np.ptp(errors[:turn] - a * np.sqrt(np.maximum(hours, 0.0)) - b * hours)) * ARCSEC
 
 
 def depths(pair: Pair) -> np.ndarray:
@@ -277,9 +339,10 @@ def run_through(pair: Pair, life: Life, progress: Callable[[Life], None], keep: 
     """All jumps that are left."""
     while (done := len(life.hours) - 1) < life.jumps:
         # From (i/n)^2 of the hours to ((i + 1)/n)^2: hours of a coarser run are among those of a finer one.
-        run_cycle(pair, life.settings.hours * (2 * done + 1) / life.jumps**2)
+        span, errors = run_cycle(pair, life.settings.hours * (2 * done + 1) / life.jumps**2)
         life.cycles += 1
         life.note(pair)
+        life.note_turn(span, errors, pair.positions)
         keep(life)
         progress(life)
 

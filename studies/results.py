@@ -9,7 +9,7 @@ import xarray as xr
 from fmu_src.arrays import Floats
 from orchestrator.component import Component
 from orchestrator.netcdf import provenance
-from studies.figure_units import figure_unit
+from studies.figure_units import OF_LIVES, OVER_TURN, figure_unit
 from studies.life import Life, as_arrays
 from studies.pair import Pair
 from studies.solve import SERIES, Turn
@@ -50,9 +50,11 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict[
     """Everything that a life run found; one entry of ``hour`` per jump."""
     topology = pair.reducer.topology
     variables: dict[str, xr.Variable] = {}
-    for name, values in as_arrays(life).items():
+    spectra = xr.concat(orders, "spectrum_hour", data_vars="minimal", coords="minimal", compat="equals", join="exact")
+    for name, values in (as_arrays(life) | {OVER_TURN: life.over_turn_at_hours(swings(spectra))}).items():
         if name != "hours":
-            variables[name] = xr.Variable(("hour",), values, {"units": figure_unit(name)})
+            said = {"long_name": OF_LIVES[name]} if name in OF_LIVES else {}
+            variables[name] = xr.Variable(("hour",), values, {"units": figure_unit(name)} | said)
     variables |= turn_variables(life.turns, pair, "hour")
     shapes = {
         "disc_wear": ("disc", "lobe", "flank_bin"), "pin_wear": ("disc", "pin", "pin_bin"),
@@ -74,7 +76,6 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict[
     record = {"reducer": pair.reducer.name, "plant": parameters_of(pair.plant), "wear": parameters_of(pair.wear)}
     attributes: dict[str, Any] = dict(provenance(inputs | {"parameters": record, "sources": pair.reducer.sources}))
     attributes |= {"title": f"wear of {pair.reducer.name} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
-    spectra = xr.concat(orders, "spectrum_hour", data_vars="minimal", coords="minimal", compat="equals", join="exact")
     return xr.Dataset(variables, coordinates, attributes).assign(spectra.data_vars).assign_coords(spectra.coords)
 
 
@@ -82,6 +83,12 @@ def figure_arrays(dataset: xr.Dataset) -> dict[str, list[float]]:
     """The figures of a life as arrays parallel to ``hours``."""
     names = [str(n) for n, v in dataset.data_vars.items() if v.dims == ("hour",)]
     return {"hours": dataset["hour"].values.tolist()} | {n: dataset[n].values.tolist() for n in names}
+
+
+def swings(spectra: xr.Dataset) -> dict[float, float]:
+    """Transmission error's peak to peak over a turn of the output [arcsec] at the hours that were recorded."""
+    found = np.ptp(spectra["transmission_error_over_turn"].values, axis=1)
+    return dict(zip(spectra["spectrum_hour"].values.tolist(), found.tolist()))
 
 
 def bin_middles(count: int, low: float, high: float) -> Floats:

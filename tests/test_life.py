@@ -104,10 +104,10 @@ def test_fault_of_long_jumps_is_cured_by_shorter_ones(rv20e):
     pair = make_coarse(rv20e)
     steps, cycle = pair.master.run, 400.0 / 4
 
-    def run(count):
+    def run(count, each_step=None):
         if pair.wear.get("acceleration") * pair.turn_time * rv20e.topology.lobes > 1.01 * cycle * HOUR:
             raise RunFault("too much wear")
-        steps(count)
+        steps(count, each_step)
 
     pair.master.run = run
     life = live(pair, Life(LifeSettings(hours=400.0, tolerance=0.1)), nothing, nothing)
@@ -118,10 +118,10 @@ def test_a_reducer_that_is_worn_through_says_after_how_many_hours(rv20e):
     pair = make_coarse(rv20e)
     steps = pair.master.run
 
-    def run(count):
+    def run(count, each_step=None):
         if pair.wear.get("operating_time") > 4.0 * HOUR:
             raise RunFault("no equilibrium")
-        steps(count)
+        steps(count, each_step)
 
     pair.master.run = run
     with pytest.raises(RunFault, match=r"after 4\b.* of 1000 h, worn by up to .* um: no equilibrium"):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.faults import InputFault
 from fmu_src.file_name import file_name
 from fmu_src.held_file import held
-from studies.figure_units import RUNNING
+from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN, WINDOW
 from workbench.folder import Folder
 from workbench.form import exactly, number
 from workbench.told import write_json
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
 PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
-    ("lag of the carrier", "arcsec", (("mean_lag_arcsec", "lag"),)),
-    ("transmission error, peak to peak", "arcsec", (("transmission_error_at_input_pp_arcsec", "transmission error"),)),
+    (f"lag of the carrier, {WINDOW}", "arcsec", (("mean_lag_arcsec", "lag"),)),
+    ("transmission error, peak to peak over one turn of the output", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
     ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Of hours, and of a torque [N m].
@@ -51,7 +51,8 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
         nonlocal before, now
         if now and now["jumps"] != state.jumps:
             before = now
-        now = curves(state.hours, state.figures) | {"jumps": state.jumps, "again": bool(state.coarse), "model": str(given["model"]), "until": hours}
+        figures = [known | {OVER_TURN: swing} for known, swing in zip(state.figures, state.over_turn_at_hours())]
+        now = curves(state.hours, figures) | {"jumps": state.jumps, "again": bool(state.coarse), "model": str(given["model"]), "until": hours}
         write_json(place / "live.json", {"now": now, "before": before})
 
     with held(path):
@@ -70,9 +71,9 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
 
 
 def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any]:
-    """Of each pane its lines over the hours, and which of two stiffnesses it is."""
+    """Of each pane its lines over the hours, and over what they are read."""
     return {
-        "hours": list(hours), "how": RUNNING,
+        "hours": list(hours), "how": f"{WHAT_IS_OVER_TURN}; {RUNNING}",
         "panes": [{"title": title, "unit": unit, "lines": [{"name": text, "values": [f[name] for f in figures]} for name, text in lines]}
                   for title, unit, lines in PANES],
     }  # fmt: skip

@@ -7,6 +7,7 @@ import numpy as np
 
 from pages import look
 from pages.words import hour_text, number
+from studies.figure_units import OVER_TURN, WINDOW
 from studies.report.result import Result
 
 # Relative change below which a figure counts as unchanged.
@@ -48,7 +49,7 @@ def cards(result: Result) -> list[Card]:
         "peak_contact_pressure_MPa": ("Peak contact pressure", "MPa", ""),
         "mean_loaded_teeth": ("Loaded teeth per disc", "", ""),
         "mean_lag_arcsec": ("Mean lag", "arcsec", ""),
-        "transmission_error_at_input_pp_arcsec": ("Transmission error (p-p)", "arcsec", ""),
+        OVER_TURN: ("Transmission error, output turn (p-p)", "arcsec", ""),
         "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness, running", "N·m/arcmin", ""),
     }
     made = []
@@ -163,12 +164,12 @@ def accuracy(result: Result) -> list[str]:
     if len(result.hours) < 2:
         return [
             f"The carrier stands {number(lag[1])} arcsec behind its ideal angle, with a transmission error of"
-            f" {number(result['transmission_error_at_input_pp_arcsec'][-1])} arcsec peak to peak."
+            f" {number(result[OVER_TURN][-1])} arcsec peak to peak over one turn of the output."
         ]
     before = f"now stands {number(lag[1])} arcsec behind its ideal angle, {number(lag[0])} at first"
     if number(lag[0]) == number(lag[1]):
         before = f"still stands {number(lag[1])} arcsec behind its ideal angle"
-    error = moves("the transmission error", result, "transmission_error_at_input_pp_arcsec", "arcsec peak to peak")
+    error = moves("the transmission error over one turn of the output", result, OVER_TURN, "arcsec peak to peak")
     stiffness = moves("running torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
     return [f"The carrier {before}; {error}, and {stiffness}."]
 
@@ -177,4 +178,4 @@ def loads(result: Result) -> str:
     """Pin force and pressure."""
     force = moves("The largest pin force", result, "peak_pin_force_N", "N")
     pressure = moves("peak contact pressure", result, "peak_contact_pressure_MPa", "MPa")
-    return f"{force}; {pressure}."
+    return f"{force}; {pressure}, both {WINDOW}."

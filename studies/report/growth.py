@@ -7,7 +7,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
-from studies.figure_units import RUNNING
+from studies.figure_units import OVER_TURN, RUNNING, WINDOW
 from studies.report.result import Result
 
 SURFACE_KEYS = [(text, colour, dash) for text, colour, dash in look.SURFACES.values()]
@@ -22,22 +22,23 @@ def figures(result: Result) -> list[Figure]:
     return [depths(result), *([rates(result), places(result)] if worn else []),
         small(result, "growth_lag", "Mean lag", "lag [arcsec]", [("mean_lag_arcsec", "second stage", LOAD, "solid"),
               ("mean_lag_at_input_arcsec", "at the input", SECOND, "dash")],
-              "Carrier behind its ideal angle at the set torque: wear adds to it like lost motion."),
+              f"Carrier behind its ideal angle at the set torque, {WINDOW}: wear adds to it like lost motion."),
         small(result, "growth_error", "Transmission error", "peak to peak [arcsec]",
-              [("transmission_error_at_input_pp_arcsec", "whole", LOAD, "solid"),
-               ("transmission_error_pp_arcsec", "second stage alone", SECOND, "dash")],
-              "Its swing over one crank turn: whole, output less input over the ratio; of the second stage alone, against the cranks."),
+              [(OVER_TURN, "whole, over one turn of the output", LOAD, "solid"),
+               ("transmission_error_pp_arcsec", "second stage alone, over one crank turn", SECOND, "dash")],
+              "Whole: output less input over the ratio, over one turn of the output, between the first hour and the last as the jumps show it."
+              f" Second stage alone: against the cranks, {WINDOW}, so it misses what errors fixed to the ring do elsewhere."),
         small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/arcmin]",
               [("torsional_stiffness_Nm_per_arcmin", "second stage", LOAD, "solid")],
-              f"Contacts of the second stage alone. {RUNNING[0].upper()}{RUNNING[1:]}."),
+              f"Contacts of the second stage alone, {WINDOW}. {RUNNING[0].upper()}{RUNNING[1:]}."),
         small(result, "growth_force", "Peak forces", "force [N]", [("peak_pin_force_N", "pin", LOAD, "solid"),
-              ("peak_roller_force_N", "roller", SECOND, "dash")], "Largest force on any pin and on any roller."),
+              ("peak_roller_force_N", "roller", SECOND, "dash")], f"Largest force on any pin and on any roller, {WINDOW}."),
         small(result, "growth_pressure", "Peak contact pressure", "Hertz pressure [MPa]",
               [("peak_contact_pressure_MPa", "disc on pin", LOAD, "solid")],
-              "Disc on pin, on the curvature of the flank as made."),
+              f"Disc on pin, on the curvature of the flank as made, {WINDOW}."),
         small(result, "growth_teeth", "Loaded teeth", "teeth per disc",
               [("mean_loaded_teeth", "mean over a crank turn", LOAD, "solid")],
-              "Pins that one disc touches, mean over a turn."),
+              f"Pins that one disc touches, mean {WINDOW}."),
         jumps(result), errors(result),
     ]  # fmt: skip
 

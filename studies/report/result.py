@@ -13,6 +13,8 @@ from fmu_src.faults import InputFault
 from rv_plant.gear_stage import total_ratio
 from rv_plant.geometry import shortening
 from rv_plant.topology import Topology
+from studies.figure_units import OVER_TURN
+from studies.results import swings
 
 MICRON = 1e6
 ARCSEC = math.degrees(1.0) * 3600.0
@@ -34,7 +36,7 @@ class Result:
         if "hour" not in n or "lobe" not in n:
             raise InputFault("this result holds no life, which the report shows; rvwear life writes one")
         topology = Topology(n["disc"], n["crank"], n["pin"], n["lobe"], n["roller"])
-        return cls(dataset, json.loads(dataset.attrs.get("inputs", "{}")), topology)
+        return cls(with_swings(dataset), json.loads(dataset.attrs.get("inputs", "{}")), topology)
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self.dataset[name].values
@@ -98,6 +100,15 @@ class Result:
     def peak_place(self, name: str, entry: int = -1) -> float:
         """Place of a surface's deepest wear [deg], e.g. ``inner_peak_deg``."""
         return float(self[name][entry])
+
+
+def with_swings(dataset: xr.Dataset) -> xr.Dataset:
+    """Results of 0.2.0 and before know the error over a turn of the output at their first and last hour alone."""
+    if OVER_TURN in dataset or "transmission_error_over_turn" not in dataset:
+        return dataset
+    known = swings(dataset)
+    values = [known.get(hour, math.nan) for hour in dataset["hour"].values.tolist()]
+    return dataset.assign({OVER_TURN: ("hour", values, {"units": "arcsec"})})
 
 
 def deepest(wear: np.ndarray) -> tuple[int, ...]:
