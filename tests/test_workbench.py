@@ -623,6 +623,10 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     assert any("give 'outer diameter of the housing' if the catalogue has it" in text for text in found["page"]["warnings"])
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
+    # Far beyond the rules it is a mistaken unit, here as on the command line.
+    with pytest.raises(InputFault, match=r"^stiffness 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
+        completed(folder, {**asked, "stiffness": "212,5 Nm/deg", "save": True})
+    assert not folder.models()
 
 
 def test_a_gap_that_makes_the_lost_motion_is_no_measured_one_on_the_page(tmp_path):
