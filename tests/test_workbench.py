@@ -361,6 +361,8 @@ def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
     of_warm, of_all, angle = f"loops in warm: {QUESTION}; state it", f"2 loops: {QUESTION}.", f"it lags hardly; state {OF_INPUT}"
     cells = cells_of([of_warm, of_all, angle, "the noise is large"], campaign)  # type: ignore[arg-type]
     assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], angle: ["angle"]}
+    # An effect that is missing lets an angle look like another's: before a diagnosis the way leads there.
+    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], angle: ["diagnose"]}  # type: ignore[arg-type]
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):
