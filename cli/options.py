@@ -4,7 +4,7 @@ import argparse
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cli.completion import completed_by, reducer_completions
 from fmu_src.faults import InputFault
@@ -103,6 +103,13 @@ def chosen(options: argparse.Namespace) -> tuple["Reducer", list["Setting"], int
     return reducer, settings_of(options, reducer), positions
 
 
+class Told(NamedTuple):
+    """A number in the unit of its option, and as it was typed."""
+
+    value: float
+    text: str
+
+
 def number_in(unit: str) -> "Callable[[str], float]":
     """What argparse makes of a number in ``unit``, alone or with a unit of its own: 1600, 1600Nm, 1.6kNm."""
 
@@ -122,6 +129,12 @@ def number_in(unit: str) -> "Callable[[str], float]":
             raise argparse.ArgumentTypeError(str(fault)) from None
 
     return parsed
+
+
+def told_in(unit: str) -> "Callable[[str], Told]":
+    """As ``number_in``, with what was typed: a fault shows it."""
+    parsed = number_in(unit)
+    return lambda text: Told(parsed(text), text)
 
 
 def folder(text: str | None) -> Path | None:

@@ -29,10 +29,11 @@ class Tested:
     least: float
 
 
-def as_in_catalogue(given: Given, stiffness: float | None, meets: bool) -> Completion:
-    """Completed as stiff as the catalogue says [N m/arcmin], if it does; ``meets``: with the gap of the flanks that makes its lost motion."""
-    completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness)
-    return as_in_catalogue(replace(given, flank_gap=gap_for(completion)), stiffness, False) if meets else completion
+def as_in_catalogue(given: Given, stiffness: float | None, meets: bool, typed: str = "") -> Completion:
+    """Completed as stiff as the catalogue says [N m/arcmin], if it does, ``typed`` with its unit; ``meets``: with the gap of the flanks that makes its
+    lost motion."""
+    completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness, typed)
+    return as_in_catalogue(replace(given, flank_gap=gap_for(completion)), stiffness, False, typed) if meets else completion
 
 
 def gap_for(completion: Completion) -> float:

@@ -412,6 +412,9 @@ def test_a_reducer_named_above_the_tables_is_proposed(tmp_path, capsys):
     assert main(["campaign", "from", str(file), "--output", str(tmp_path / "made")]) == 0
     assert "reducer RV20E-121: as lines above the tables say" in capsys.readouterr().out
     assert load_campaign(tmp_path / "made").reducer.name == "RV20E-121"
+    # Of one that was given it says that it was.
+    assert main(["campaign", "from", str(file), "--reducer", "RV20E-121", "--output", str(tmp_path / "given")]) == 0
+    assert "reducer RV20E-121: given; lines above the tables say the same\n" in capsys.readouterr().out
     # By its name the output's, but a multiple of the input's beside it to the last digit: nobody has to be asked.
     assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "input"
     said = ("i=121", ", ratio 121", " 1:121", "; i = 121", ", Übersetzung 121", ", rapport de réduction: 1/121", "; rapporto di riduzione;121", " 减速比：121")

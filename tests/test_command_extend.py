@@ -159,7 +159,24 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     monkeypatch.setattr(extension, "extend", lambda *given, **more: Extension(file, step, DID_NOT_HELP))
     target = str(tmp_path / "m.toml")
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 3
-    assert capsys.readouterr().out.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --overwrite --anyway"
+    said = capsys.readouterr().out
+    assert said.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --overwrite --anyway" and "next  " not in said
+
+
+def test_what_one_does_with_the_extended_model_stands_below_it(monkeypatch, capsys, tmp_path):
+    """It ended with the file."""
+    step = {"nuisances": {}, "effects": ["drag"], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0, "training_after": 1.0}
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
+    monkeypatch.setattr("discrepancy.remembered.extended", lambda file, *given, **more: Extension(replace(file, steps=(step,)), step, HELPED))
+    words, target = ["extend", "RV20E-121", "my bench", "--data", "d", "--effect", "drag", "--overwrite"], tmp_path / "better model.toml"
+    assert main([*words, "--output", str(target)]) == 0
+    *_, compared, diagnosed = capsys.readouterr().out.splitlines()
+    for line, head, command in ((compared, "next  ", "compare"), (diagnosed, "then  ", "diagnose")):
+        again = parser().parse_args(shlex.split(line.removeprefix(head).partition(" #")[0])[1:])
+        assert line.startswith(head) and (again.command, again.model, again.campaign, again.data) == (command, str(target), "my bench", "d")
+    # Of a draft the command says it that drafted, with the folder of the effect; beside JSON nothing stands.
+    for more in (["--drafted"], ["--json"]):
+        assert main([*words, "--output", str(target), *more]) == 0 and "next  " not in capsys.readouterr().out
 
 
 def test_a_file_that_is_there_is_written_over_only_where_it_is_asked_for(monkeypatch, capsys, tmp_path):

@@ -12,7 +12,7 @@ from cli.show.doctor import show
 from cli.show.effects import show_one
 from discrepancy.catalogue.catalogue import Entry, entries
 from discrepancy.catalogue.examples import cases
-from discrepancy.catalogue.signature import Row, Signature
+from discrepancy.catalogue.signature import Row, Signature, words
 from fmu_src.effect import Effect, amplitude
 
 
@@ -119,6 +119,17 @@ def test_an_effect_that_shows_nothing_says_so_and_asks_for_its_size(capsys):
     show_one(own, [still, moved], "RV20E-121")
     said = " ".join(capsys.readouterr().out.split())
     assert "Those that are not listed do not change" in said and "lost motion" in said
+
+
+def test_a_slope_that_is_not_positive_is_no_stiffness(capsys):
+    """395 -> -1.2e+03 N m/arcmin stood there."""
+    effect = Effect(0, "own", "law", "source", "signature", (amplitude("own_turn", "rad", "turning", 5e-6, -1e-2, 1e-2),))
+    own = Entry("own", effect, "plant", cases("own", effect))
+    found = Signature("own", own.cases[0], (Row("stiffness", "N m/arcmin", "rated", 395.0, -1200.0), Row("lost motion", "arcsec", "rated", 40.0, -45.0)))
+    show_one(own, [found], "RV20E-121")
+    said = capsys.readouterr().out
+    assert "395 │ none: the curve turns back" in said and "-1.2e+03" not in said and "-45" in said
+    assert words(found)[0] == "stiffness (rated) 395 N m/arcmin -> none: the curve turns back"
 
 
 def test_a_word_finds_the_effects_in_which_it_stands(capsys):

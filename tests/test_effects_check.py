@@ -310,6 +310,15 @@ OFF = [
 ]  # fmt: skip
 
 
+def test_a_file_outside_of_the_folders_of_units_is_told_where_it_goes_with_all_else_that_is_wrong(tmp_path, capsys):
+    """It ended with a KeyError of the folder's name."""
+    file = written(tmp_path, hook("r.lobe_torque_x[0] += r.my_size"), unit="elsewhere", name="dowel_slip")
+    for json in ([], ["--json"]):
+        assert main(["effects", "--check", str(file), *json]) == 2
+        told = capsys.readouterr().out
+        assert "put it into DIR/rv_plant/ or DIR/wear_fmu/" in told and str(file) in told and "lobe_torque_x" in told
+
+
 def test_what_the_compiler_refuses_is_told_before_anything_is_built(tmp_path):
     file = written(tmp_path, HEAD + "@kernel\ndef before(r):\n    r.crank_turn_added += r.my_size\n")
     (found,) = not_translated(file)

@@ -392,7 +392,7 @@ def test_what_somebody_measured_counts_for_given_and_what_hangs_on_it_is_outdate
 @pytest.mark.parametrize(("options", "said"), [
     (["--ratio", "105.3", "--rated", "500"], ["pins are assumed", "--ratio 105.3 is taken for a rounded one"]),
     (["--ratio", "81", "--pins", "40", "--rated", "1600", "--diameter", "150"], ["pin.circle_radius = "]),
-    (["--ratio", "121", "--pins", "40", "--rated", "412", "--stiffness", "5Nm/arcmin"], ["a torsional stiffness of 5 N.m/arcmin asks for crank.support"]),
+    (["--ratio", "121", "--pins", "40", "--rated", "412", "--stiffness", "40Nm/arcmin"], ["a torsional stiffness of 40 N.m/arcmin asks for crank.support"]),
 ])  # fmt: skip
 def test_the_check_of_a_file_repeats_what_was_doubtful_when_it_was_made(tmp_path, capsys, options, said):
     path = str(tmp_path / "a.toml")
@@ -432,6 +432,19 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
         assert main([*words, *more, "--output", "no.toml"]) == 2
         assert said in " ".join(capsys.readouterr().err.split())
     assert not (tmp_path / "no.toml").exists()
+
+
+@pytest.mark.parametrize(("typed", "said"), [
+    ("210Nm/deg", "--stiffness 210Nm/deg is 3.5 N.m/arcmin: it asks for crank.support_compliance = 5"), ("210Nm/deg", "; did you mean 210 N.m/arcmin?"),
+    ("210Nm/deg", "more than 5 times beyond what rules give, 2.57 um/kN to 9.31 um/kN, which make 174 to 493 N.m/arcmin"),
+    ("3.5", "--stiffness 3.5 N.m/arcmin: it asks for "), ("3.5", "N.m/arcmin; give --diameter if the catalogue has it, or look at its unit"),
+    ("12600", "which is softer; did you mean 12600 N.m/deg?"),
+])  # fmt: skip
+def test_a_stiffness_far_beyond_the_rules_is_refused_with_the_unit_that_was_meant(tmp_path, capsys, typed, said):
+    """A file of supports sixty times as soft as any was written, with one doubt among its lines."""
+    file = tmp_path / "a.toml"
+    assert main(["reducer", "new", "--ratio", "153", "--rated", "784", "--stiffness", typed, "--output", str(file)]) == 2
+    assert said in " ".join(capsys.readouterr().err.split()) and not file.exists()
 
 
 def test_compliances_stand_on_screens_in_the_units_that_people_read(tmp_path, capsys):

@@ -361,6 +361,8 @@ def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
     of_warm, of_all, angle = f"loops in warm: {QUESTION}; state it", f"2 loops: {QUESTION}.", f"it lags hardly; state {OF_INPUT}"
     cells = cells_of([of_warm, of_all, angle, "the noise is large"], campaign)  # type: ignore[arg-type]
     assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], angle: ["angle"]}
+    # An effect that is missing lets an angle look like another's: before a diagnosis the way leads there.
+    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], angle: ["diagnose"]}  # type: ignore[arg-type]
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):
@@ -623,6 +625,10 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     assert any("give 'outer diameter of the housing' if the catalogue has it" in text for text in found["page"]["warnings"])
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
+    # Far beyond the rules it is a mistaken unit, here as on the command line.
+    with pytest.raises(InputFault, match=r"^stiffness 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
+        completed(folder, {**asked, "stiffness": "212,5 Nm/deg", "save": True})
+    assert not folder.models()
 
 
 def test_a_gap_that_makes_the_lost_motion_is_no_measured_one_on_the_page(tmp_path):

@@ -264,9 +264,12 @@ def test_from_a_note_of_a_result_about_a_locked_input_a_click_leads_to_its_cell(
       const { notes } = await import('./static/look_parts.js'), went = [];
       const found = notes({ warnings: [text], calibrated: [], cells: { [text]: ['angle'] } }, { go: (name) => went.push(name) });
       found.querySelector('.note button').click();
-      return [found.querySelector('.note').textContent, went];
+      // Of a model that nobody diagnosed it is asked later.
+      const first = notes({ warnings: [text], calibrated: [], cells: { [text]: ['diagnose'] } }, { go: (name) => went.push(name) });
+      first.querySelector('.note button').click();
+      return [found.querySelector('.note').textContent, first.querySelector('.note').textContent, went];
     }""", text)
-    assert told == [f"{text} Say it: whose the angle is", ["in"]]
+    assert told == [f"{text} Say it: whose the angle is", f"{text} Diagnose first", ["in", "diagnose"]]
 
 
 def test_families_of_one_quantity_are_corrected_together_and_conditions_in_one_place(bench, tmp_path):

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 # Findings of numbers that cannot be, or hardly: they stand open above whatever is made of the numbers, all others are a list to be opened.
 OF_NUMBERS = ("implausible scale", "impossible torque", "outlying samples", "outlying repetition", "rows out of order", "loop against the torque",
               "loop the wrong way round", "angle jumps", "time runs back")  # fmt: skip
+# In place of a cell, the view where one goes first; static/to_cell.js knows it by this name.
+FIRST = "diagnose"
 
 
 def as_told(finding: "Finding") -> dict[str, Any]:
@@ -50,8 +52,11 @@ def in_page_words(text: str) -> str:
     return on_page(with_titles(text))
 
 
-def cells_of(warnings: Sequence[str], campaign: "Campaign") -> dict[str, list[str]]:
-    """By warning in words of the page, as ``apart`` has it, what of In answers it: a condition and the key that it lacks, or the role of a column alone."""
+def cells_of(warnings: Sequence[str], campaign: "Campaign", diagnosed: bool = True) -> dict[str, list[str]]:
+    """By warning in words of the page, as ``apart`` has it, what of In answers it: a condition and the key that it lacks, or the role of a column alone.
+
+    Whose an angle was is asked of a model that was ``diagnosed`` alone: before that an effect may be what is missing, and FIRST leads there.
+    """
     found = {}
     for text in warnings:
         if QUESTION in text and (names := unplaced_in(campaign.records)):
@@ -60,5 +65,5 @@ def cells_of(warnings: Sequence[str], campaign: "Campaign") -> dict[str, list[st
             told = of[1].split(", ") if of else names
             found[in_page_words(text)] = [next((name for name in names if name in told), names[0]), LOCKED_AT]
         elif OF_INPUT in text:
-            found[in_page_words(text)] = ["angle"]
+            found[in_page_words(text)] = ["angle"] if diagnosed else [FIRST]
     return found

@@ -61,7 +61,8 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     doubts, warnings = apart(page.warnings, model.campaign, result.scale_doubts)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
-        "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign), "cards": [asdict(c) for c in page.cards],
+        "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign, diagnosed=bool(model.file.effects)),
+        "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result),
         "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],

@@ -137,7 +137,7 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
         known, stiffness = given_of(given)
-        completion = as_in_catalogue(known, stiffness, bool(given.get("meets_lost_motion")))
+        completion = as_in_catalogue(known, stiffness, bool(given.get("meets_lost_motion")), str(given.get("stiffness") or "").replace(",", "."))
         name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
             raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")

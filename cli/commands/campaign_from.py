@@ -93,7 +93,7 @@ def run_from(options: argparse.Namespace) -> int:
         more = {"folder": str(folder), "written": not options.dry_run, "text": text, "next": command}
         json_text(proposal.as_json() | {"findings": [asdict(found) for found in findings]} | more)
         return code
-    show(proposal, findings)
+    show(proposal, findings, bool(options.reducer))
     if not options.dry_run:
         only_file(folder / "campaign.toml")
     if options.dry_run:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, named_in, nothing_added, refit_text, refusal
+from cli.commands.going_on import extend_line, line_after, lines_after_extending, named_in, nothing_added, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
@@ -53,6 +53,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add.add_argument("--overwrite", action="store_true", help="write over another file that is there")
     add.add_argument("--fmus", metavar="FOLDER", help="build the FMUs of the extended model there")
     add.add_argument("--anyway", action="store_true", help="keep an effect that did not help")
+    # Given by --draft, which says itself how a model is used that needs the effect drafted.
+    add.add_argument("--drafted", action="store_true", help=argparse.SUPPRESS)
     add.set_defaults(run=run_extend)
     ladder = sub.add_parser("ladder", help="how the error fell, step by step")
     add_model(ladder)
@@ -271,6 +273,8 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             print(f"to keep it all the same:\n  {extend_line(again, names, anyway=True)}")
         for path in fmus:
             say_file(path, "FMU    ")
+        if extension.step["kept"] and not options.drafted:
+            print(f"\n{lines_after_extending(options, str(target))}")
     say_page(options)
     return NOTHING_ADDED_CODE if extension.verdict == DID_NOT_HELP else 0
 

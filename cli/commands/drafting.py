@@ -98,7 +98,7 @@ def child(options: argparse.Namespace, draft: "Draft", more: list[str], as_json:
     """``rvwear extend`` with the draft among the effects; what it says goes to this screen, or is kept where it is JSON."""
     effects = [word for name in (*draft.beside, draft.name) for word in ("--effect", name)]
     how = ["--json"] if as_json else ["--quiet"] if options.quiet else []
-    words = ["extend", options.model, options.campaign, *effects, *given(options, ("data",)), *more, *how]
+    words = ["extend", options.model, options.campaign, *effects, *given(options, ("data",)), *more, *how, "--drafted"]
     sys.stdout.flush()
     environment = os.environ | {USER_EFFECTS: str(draft.file.resolve().parents[1])}
     return subprocess.run([sys.executable, "-m", "cli", *words], env=environment, text=True, check=False,

@@ -83,9 +83,13 @@ def check_files(files: list[Path], as_json: bool) -> int:
         json_text({"findings": shown, "doubts": doubted})
     else:
         for name, found in findings.items():
-            sound = [f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name))), *(f"  doubtful: {f.text}" for f in doubts.get(name, []))]
-            print("\n".join(map(str, found) if found else sound))
+            print("\n".join(map(str, found) if found else sound(name, doubts[name])))
     return 2 if any(findings.values()) else 0
+
+
+def sound(name: str, doubts: "list[Finding]") -> list[str]:
+    """Of a file in which nothing is wrong: only such a one lies where its folder names its unit."""
+    return [f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name))), *(f"  doubtful: {f.text}" for f in doubts)]
 
 
 def of_parameters(file: Path) -> list[str]:

@@ -45,6 +45,13 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
 
+def lines_after_extending(options: argparse.Namespace, model: str) -> str:
+    """The command lines with which one goes on from a model that has what was missing."""
+    more = [options.campaign, *(["--data", options.data] if options.data else [])]
+    compared, diagnosed = (shlex.join(["rvwear", command, model, *more]) for command in ("compare", "diagnose"))
+    return f"next  {compared}    # what is left beside it\nthen  {diagnosed}    # whether more is missing"
+
+
 def nothing_added(options: argparse.Namespace, answer: "Answer", why: str) -> int:
     """Says why ``extend`` leaves the model as it is, with ``--json`` as part of the diagnosis; its exit code."""
     from cli.screen import json_text

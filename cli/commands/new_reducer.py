@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cli.commands import check_reducer
 from cli.completion import completed_by, reducer_completions
-from cli.options import add_json, number_in
+from cli.options import add_json, number_in, told_in
 from cli.written import only_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
@@ -36,7 +36,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
     new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN",
                      help="lost motion of the catalogue [arcmin]: bounds the flanks' gaps, not the whole (default 1)")
-    new.add_argument("--stiffness", type=number_in("N.m/arcmin"), metavar="NM/ARCMIN",
+    new.add_argument("--stiffness", type=told_in("N.m/arcmin"), metavar="NM/ARCMIN",
                      help="torsional stiffness of the catalogue [N m/arcmin]: the supports of the cranks are made as soft as that asks for")
     new.add_argument(
         "--meet-lost-motion", action="store_true",
@@ -78,7 +78,7 @@ def run_new(options: argparse.Namespace) -> int:
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
-        completion = as_in_catalogue(given, options.stiffness, options.meet_lost_motion)
+        completion = as_in_catalogue(given, *stiffness_of(options))
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)
@@ -103,11 +103,17 @@ def run_new(options: argparse.Namespace) -> int:
     return 0
 
 
+def stiffness_of(options: argparse.Namespace) -> tuple[float | None, bool, str]:
+    """As ``as_in_catalogue`` takes what the catalogue says."""
+    told = options.stiffness
+    return (None if told is None else told.value), options.meet_lost_motion, ("" if told is None else told.text)
+
+
 def command_of(options: argparse.Namespace, given: "Given", target: Path) -> list[str]:
     """The command as it was given, that it writes over its files but not: whoever types it says so."""
     from reducers.completion.command import typed, words_of
 
-    stiff = ["--stiffness", typed(options.stiffness)] if options.stiffness is not None else []
+    stiff = ["--stiffness", typed(options.stiffness.value)] if options.stiffness is not None else []
     asked = [word for name in ("name", "against", "html") if (value := getattr(options, name)) for word in (f"--{name}", value)]
     return [*words_of(given), *stiff, *asked, *(["--sensitivity"] if options.sensitivity else []), "--output", str(target)]
 

@@ -33,8 +33,6 @@ def show_list(entries: list[Entry], word: str | None = None) -> None:
 
 def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     """The explanation, its parameters, and what the bench shows with a reducer."""
-    from discrepancy.catalogue.signature import number
-
     out, e = console(WIDTH), entry.effect
     numbered = f", number {e.number} of the physics audit" if e.number else ""
     out.print(styled((e.title, "bold"), f"  {entry.name}{numbered}, acts in the {entry.part}"))
@@ -56,7 +54,7 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
             table.add_column(head, justify="right" if head.startswith("with") else "left")
         for row in signature.rows:
             if row.is_visible():
-                table.add_row(row.figure, row.condition, number(row.without), number(row.present), "" if row.unit == "1" else row.unit)
+                table.add_row(row.figure, row.condition, *row.texts, "" if row.unit == "1" else row.unit)
         out.print(table)
     if found and not any(signature.shows for signature in found):
         return

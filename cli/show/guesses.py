@@ -12,7 +12,7 @@ from discrepancy.campaign.guess.propose import PlacedRun, Proposal
 from discrepancy.campaign.guess.whose_angle import over_output
 
 
-def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
+def show(proposal: Proposal, findings: Sequence[Finding] = (), reducer_given: bool = False) -> None:
     """Runs, what each column was taken for and why, conditions, what is not sure, ``findings`` in what was read, what is needed."""
     out = console(WIDTH)
     table = Table(title=f"{proposal.name}: {len(proposal.runs)} run{'s' * (len(proposal.runs) != 1)}", title_justify="left")
@@ -41,7 +41,8 @@ def show(proposal: Proposal, findings: Sequence[Finding] = ()) -> None:
         said = [f"{key} {value}" for key, value in stated.items()] + [f"{key} {' and '.join(levels)} by its column" for key, levels in by_column.items()]
         out.print(f"condition {name}: {', '.join(said) or 'nothing is said'}{kept}")
     if proposal.reducer and proposal.reducer == proposal.named:
-        out.print(f"reducer {proposal.reducer}: as lines above the tables say; --reducer takes another, or a reducer file")
+        told = "given; lines above the tables say the same" if reducer_given else "as lines above the tables say; --reducer takes another, or a reducer file"
+        out.print(f"reducer {proposal.reducer}: {told}")
     for doubt in proposal.doubts:
         out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
     for finding in findings:

@@ -205,7 +205,7 @@ def computed_part(entry: Entry, found: list[Signature]) -> str:
     parts = []
     for s in found:
         wears = "wear" in entry.part
-        rows = [(r.figure, r.condition, number(r.without), number(r.present), "" if r.unit == "1" else r.unit)
+        rows = [(r.figure, r.condition, *r.texts, "" if r.unit == "1" else r.unit)
                 for r in largest(s, MOST_ROWS, DEPTH if wears else "")]
         shown = [table(("figure", "condition", "without", "with", "unit"), rows)] if rows else []
         shown += [wear_table(s)] if wears else []

@@ -36,6 +36,10 @@ WEAR_HOURS, LATE_HOURS = 1000.0, 5000.0
 SURFACES = ("flank", "pin", "inner_race", "outer_race")
 
 
+# In place of a stiffness: what somebody's law makes of the turning falls with the torque.
+TURNS_BACK = "none: the curve turns back"
+
+
 @dataclass(frozen=True)
 class Row:
     """One figure at one condition, without and with the effect."""
@@ -49,6 +53,13 @@ class Row:
     @property
     def change(self) -> float:
         return self.present - self.without
+
+    @property
+    def texts(self) -> tuple[str, str]:
+        """Without and with the effect; a secant that does not rise is no stiffness."""
+        rises = self.figure.startswith("stiffness")
+        without, present = (TURNS_BACK if rises and not value > 0.0 else number(value) for value in (self.without, self.present))
+        return without, present
 
     def is_visible(self) -> bool:
         """More than half a percent, and more than rounding."""
@@ -287,10 +298,13 @@ def largest(found: Signature, most: int = 12, but: str = "") -> list[Row]:
 
 def words(found: Signature, most: int = 12) -> list[str]:
     """The largest changes in words."""
-    return [
-        f"{r.figure} ({r.condition}) {number(r.without)} -> {number(r.present)} {r.unit if r.unit != '1' else ''}".strip()
-        for r in largest(found, most)
-    ]  # fmt: skip
+    return [f"{r.figure} ({r.condition}) {change_text(r)}" for r in largest(found, most)]
+
+
+def change_text(row: Row) -> str:
+    """The unit stands behind the last number."""
+    (without, present), unit = row.texts, "" if row.unit == "1" else f" {row.unit}"
+    return f"{without}{unit} -> {present}" if present == TURNS_BACK else f"{without} -> {present}{unit}"
 
 
 def number(value: float) -> str:

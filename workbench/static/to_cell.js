@@ -42,5 +42,12 @@ export function arrive() {
   wanted = null;
 }
 
+// What is no cell: the doubt may be gone once it is known which effect is missing.
+const FIRST = "diagnose";
+const toDiagnose = (context) => h("button", { type: "button", class: "to-cell", onclick: () => context.go(FIRST) }, "Diagnose first");
+
 // A note of a result, with the way to what answers it.
-export const asked = (text, cells, context) => (cells?.[text] ? [text, " ", toCellOfIn(cells[text], context)] : [text]);
+export function asked(text, cells, context) {
+  const cell = cells?.[text];
+  return cell ? [text, " ", cell[0] === FIRST ? toDiagnose(context) : toCellOfIn(cell, context)] : [text];
+}
