@@ -1,5 +1,6 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise, product
@@ -205,9 +206,20 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
     best = result.proposals[0]
     if best.least >= ENOUGH:
         cheapest = f"the cheapest that tells them apart (separation {chi_text(best.least)})"
+        if is_measured(best, campaign):
+            return f"{said}: the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
         return f"{said}: whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
     most = f"most {best.experiment} (separation {best.least:.1f} of {ENOUGH:g})"
     return f"{said}: no further experiment within the limits would tell these apart by itself, {most}"
+
+
+def is_measured(proposal: Proposal, campaign: Campaign) -> bool:
+    """Whether the campaign has a run of what is proposed, at the same settings."""
+    def alike(record: Record) -> bool:
+        found = {name: record.factors.get(name) for name in proposal.settings}
+        return stream_of(record) == proposal.kind and all(v is not None and math.isclose(v, proposal.settings[n], abs_tol=1e-9) for n, v in found.items())
+
+    return any(map(alike, campaign.records))
 
 
 def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -15,6 +15,11 @@ STAMP = "unit.json"
 IN_FMU = (ROOT / STAMP).is_file()
 
 
+def own_effects_hint() -> str:
+    """The end of a message about an effect that is not there; empty where a folder of one's own is named."""
+    return "" if os.environ.get(USER_EFFECTS) else f" (effects of your own are found in the folder that {USER_EFFECTS} names, which is not set here)"
+
+
 def user_effect_files(package: str) -> list[tuple[str, Path]]:
     """(name inside the project, file) of the user's effects of a package, in a fixed order.
 

@@ -14,6 +14,7 @@ from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, nearest
 from fmu_src.names import found_by_name, settable_names
 from fmu_src.reading import quoted
+from fmu_src.source_hash import own_effects_hint
 from fmu_src.table import Table
 from fmu_src.units import UnitError, conversion
 from fmu_src.unstated_unit import check_given
@@ -54,7 +55,8 @@ def parse_setting(text: str, tables: list[Table]) -> Setting:
     owners = found_by_name(tables, name, "setting", SETTABLE)
     if not owners:
         names, old = settable_names(tables)
-        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{nearest(name, names, old=old)}")
+        own = own_effects_hint() if name.startswith("effects.") else ""
+        raise InputFault(f"setting {text!r}: there is no parameter or input {name!r}{nearest(name, names, old=old)}{own}")
     _, bracket, rest = name.partition("[")
     for owner, variable in owners:
         element = variable.path + bracket + rest

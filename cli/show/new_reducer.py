@@ -49,7 +49,8 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     if tested is not None:
         console().print(in_words(tested, completion))
         if tested.gap is not None and not is_met(tested, completion):
-            print(f"  {shlex.join([*command, '--meet-lost-motion', '--overwrite'])}")
+            told = [] if "--lost-motion" in command else ["--lost-motion", f"{completion.given.lost_motion:g}"]
+            print(f"  {shlex.join([*command, *told, '--meet-lost-motion', '--overwrite'])}")
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 

@@ -9,6 +9,7 @@ from discrepancy.effects import EFFECTS as CHAIN
 from discrepancy.model_file import every_effect
 from fmu_src.effect import Effect, EffectParameter
 from fmu_src.faults import InputFault, nearest
+from fmu_src.source_hash import own_effects_hint
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def entry(name: str) -> Entry:
     for found in entries():
         if name in (found.name, found.number) and name != "-":
             return found
-    raise InputFault(f"no effect {name!r}{nearest(name, [e.name for e in entries()], 2) or ';'} rvwear effects lists them")
+    raise InputFault(f"no effect {name!r}{nearest(name, [e.name for e in entries()], 2) or ';'} rvwear effects lists them{own_effects_hint()}")
 
 
 def found_by(word: str) -> list[Entry]:
