@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.faults import InputFault
 from fmu_src.file_name import file_name
 from fmu_src.held_file import held
-from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN, WINDOW
+from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from workbench.folder import Folder
 from workbench.form import exactly, number
 from workbench.told import write_json
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
 PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
-    (f"lag of the carrier, {WINDOW}", "arcsec", (("mean_lag_arcsec", "lag"),)),
-    ("transmission error, peak to peak over one turn of the output", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
+    ("lag over a crank turn", "arcsec", (("mean_lag_arcsec", "lag"),)),
+    ("transmission error p-p", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
     ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Of hours, and of a torque [N m].
