@@ -97,14 +97,13 @@ class Trial:
             beside_it = self.opened(folder, model)
             found = beside_it.model
             record = run_of(found, run)
-            own = checked_values(found, values)
-            standing = self.standing(folder, model, found)
+            own, standing = checked_values(found, values), beside_it.standing
             base = own_curve(found, record, standing)
-            tried = own_curve(found, record, standing | beside_it.calibrated(own) | own, roughly) if own else base
+            tried = own_curve(found, record, {**standing, **beside_it.calibrated(own), **own}, roughly) if own else base
             other = base
             if beside and beside != model:
-                second = self.opened(folder, beside).model
-                other = own_curve(second, run_of(second, run), self.standing(folder, beside, second))
+                second = self.opened(folder, beside)
+                other = own_curve(second.model, run_of(second.model, run), second.standing)
             factor, unit = amounts.scale(record.unit, stream_of(record))
             name = axis_name(record)
             speed = of_axis("speed", found.campaign)
@@ -131,9 +130,8 @@ class Trial:
         with self.lock:
             beside = self.opened(folder, model)
             found = beside.model
-            own = checked_values(found, values)
-            standing = self.standing(folder, model, found)
-            calibrated = standing | beside.calibrated(own)
+            own, standing = checked_values(found, values), beside.standing
+            calibrated = {**standing, **beside.calibrated(own)}
             cells: dict[str, list[tuple[float, float, float]]] = {}
             units: dict[str, str] = {}
             seen = set()

@@ -64,6 +64,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def run_new(options: argparse.Namespace) -> int:
     """The file is written after it was read and checked as any other."""
+    from dataclasses import replace
+
     from cli.screen import json_text
     from cli.show.new_reducer import show, show_against, show_influences
     from fmu_src.checked_file import write_text
@@ -95,7 +97,7 @@ def run_new(options: argparse.Namespace) -> int:
         moved = {"sensitivity": [vars(one) | {"share": one.share} for one in found]} if options.sensitivity else {}
         json_text({"file": str(target)} | as_json(completion) | {"tested": None if test is None else vars(test)} | compared | moved)
     else:
-        show(completion, name, target, test, command_of(options, given, target))
+        show(completion, name, target, test, command_of(options, given if test is None else replace(given, flank_gap=test.gap), target))
         if options.against:
             show_against(rows, name, options.against)
         if options.sensitivity:

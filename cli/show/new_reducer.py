@@ -23,7 +23,8 @@ SAME = 0.02
 
 
 def show(completion: Completion, name: str, file: Path, tested: Tested | None, command: Sequence[str]) -> None:
-    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it; ``command`` made it."""
+    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it; ``command`` makes its lost motion
+    the catalogue's, if a gap does."""
     table = dense(f"{name}: completed by design rules")
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
@@ -49,8 +50,7 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     if tested is not None:
         console().print(in_words(tested, completion))
         if tested.gap is not None and not is_met(tested, completion):
-            told = [] if "--lost-motion" in command else ["--lost-motion", f"{completion.given.lost_motion:g}"]
-            print(f"  {shlex.join([*command, *told, '--meet-lost-motion', '--overwrite'])}")
+            print(f"  {shlex.join([*command, '--overwrite'])}")
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
 

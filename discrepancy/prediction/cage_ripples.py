@@ -36,11 +36,11 @@ def cage_ripples(bench: Bench, record: Record, values: Values, cages: Sequence[f
     plain = OverAngle(bench, record, "transmission_error")
     if not exactly and plain.condition.hours == 0.0 and bench.allowed(record) > 0.0 and not is_seen(plain):
         found: list[Floats] = []
-        angles, samples = plain.support(nodes_of(plain, values), values)
-        for change in to_first_order(plain, values, angles, cages):
+        at = plain.support(nodes_of(plain, values), values)
+        for change in to_first_order(plain, values, at.angles, cages):
             if misses(plain, change):
                 break
-            found.append(samples(change))
+            found.append(at.samples(change))
         else:
             return found
     return ripples(plain, values, cages)
@@ -50,7 +50,7 @@ def is_seen(curve: OverAngle) -> bool:
     """Whether one could see what the base model's ripple misses to first order: that of effects is then not asked, it would be seen as well."""
 
     def seen() -> bool:
-        angles, _ = curve.support(nodes_of(curve, {}), {})
+        angles = curve.support(nodes_of(curve, {}), {}).angles
         quarter = 0.5 * math.pi / curve.bench.reducer.topology.rollers
         return any(misses(curve, change) for change in to_first_order(curve, {}, angles, [quarter]))
 

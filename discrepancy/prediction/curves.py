@@ -6,7 +6,7 @@ A prediction is the base model's, at fine nodes and once, and what the values ch
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol, TypeVar
+from typing import NamedTuple, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -75,6 +75,14 @@ class Curve(Protocol[Nodes]):
         ...
 
 
+class Support(NamedTuple):
+    """``angles`` [rad] at which a curve is computed, how the record's ``samples`` follow from a series there, and near which runs it ``starts``."""
+
+    angles: Floats
+    samples: Callable[[Floats], Floats]
+    starts: Starts | None
+
+
 @dataclass(frozen=True)
 class OverAngle:
     """Column ``name`` of the running bench (``studies.coupled.COLUMNS``); cages ``cage`` ahead [rad]."""
@@ -109,9 +117,8 @@ class OverAngle:
         return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
 
     def directly(self, values: Values) -> Floats:
-        anchor, beyond = self.anchored(values)
-        angles = self.at_stations(anchor)
-        return self.from_stations(self.bench.column(self.name, self.condition, values, angles, self.cage, self.starts(values, anchor)), beyond)
+        at = self.support(None, values)
+        return at.samples(self.bench.column(self.name, self.condition, values, at.angles, self.cage, at.starts))
 
     def starts(self, values: Values, anchor: float) -> Starts:
         """Angles of runs near that with its angle 0 at ``anchor`` [rad]."""
@@ -133,13 +140,13 @@ class OverAngle:
         # Twice is enough: what is left is the third power of it.
         return at(-behind)
 
-    def support(self, nodes: AngleNodes | None, values: Values) -> tuple[Floats, Callable[[Floats], Floats]]:
-        """Angles [rad] at which to compute, and how the record's samples follow from there: ``nodes``, else its stations, near their anchor."""
+    def support(self, nodes: AngleNodes | None, values: Values) -> Support:
+        """``nodes``, else its stations, near their anchor."""
         if nodes is not None:
             places = self.places(values)
-            return nodes.angles, lambda series: nodes.samples(series, places)
+            return Support(nodes.angles, lambda series: nodes.samples(series, places), None)
         anchor, beyond = self.anchored(values)
-        return self.at_stations(anchor), lambda series: self.from_stations(series, beyond)
+        return Support(self.at_stations(anchor), lambda series: self.from_stations(series, beyond), self.starts(values, anchor))
 
     def beside(self, values: Values, base: Values, angles: Floats, starts: Starts | None = None) -> Floats:
         """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
@@ -325,14 +332,13 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
     turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
-        anchor = curve.anchored(base)[0]
-        angles, starts = curve.at_stations(anchor), curve.starts(base, anchor)
+        at = curve.support(None, base)
         high, low = (
-            bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, angles, starts=starts) for v in (values, base)
+            bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, at.angles, starts=at.starts) for v in (values, base)
         )
         return curve.from_stations(high - low, 0.0)
-    angles, samples = curve.support(nodes, values)
-    change = samples(curve.beside(values, base, angles, curve.starts(base, curve.anchored(values)[0]) if nodes is None else None))
+    at = curve.support(nodes, values)
+    change = at.samples(curve.beside(values, base, at.angles, at.starts))
     if turned:
         # The angle from which the record counts: along the curve.
         change += signal(curve, {**base, **curve.unchanged(values)}) - signal(curve, base)

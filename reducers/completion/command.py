@@ -20,8 +20,9 @@ def words_of(given: Given) -> list[str]:
     words += ["--rated", typed(given.rated)]
     words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
-    words += ["--lost-motion", typed(given.lost_motion)] if given.lost_motion != Given.lost_motion else []
-    words += ["--meet-lost-motion"] if given.flank_gap is not None else []
+    meets = given.flank_gap is not None
+    words += ["--lost-motion", typed(given.lost_motion)] if meets or given.lost_motion != Given.lost_motion else []
+    words += ["--meet-lost-motion"] if meets else []
     for name, value in given.known.items():
         words += ["--known", f"{name}={with_unit(value, UNITS[name])}"]
     return words
