@@ -52,8 +52,7 @@ def bench_test(options: argparse.Namespace) -> int:
     found, unread = {}, {}
     for condition, group in curves.items():
         try:
-            found[condition] = test.evaluate([*group.values()], rated, ratio)
-            unread[condition] = test.unread([*group.values()], rated, ratio)
+            found[condition], unread[condition] = test.evaluated([*group.values()], rated, ratio)
         except InputFault as fault:
             raise InputFault(": ".join(filter(None, (options.measured, condition, str(fault))))) from None
     count = sum(len(group) for group in curves.values())

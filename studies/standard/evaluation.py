@@ -66,7 +66,11 @@ class Test:
     own_figures: bool = False
 
     def evaluate(self, curves: Sequence[Curve], rated: float, ratio: float) -> list[Figure]:
-        """Figures over all positions: the mean, and the spread where there are several; those that any position leaves unread are missing.
+        """The figures of ``evaluated``."""
+        return self.evaluated(curves, rated, ratio)[0]
+
+    def evaluated(self, curves: Sequence[Curve], rated: float, ratio: float) -> tuple[list[Figure], dict[str, str]]:
+        """Figures over all positions: the mean, and the spread where there are several; by name why those are missing that any position leaves unread.
 
         ``rated`` torque [N m], ``ratio`` of input turns to output turns.  InputFault for curves that do not hold what the test needs.
         """
@@ -82,11 +86,7 @@ class Test:
             values = [one[name][0] for one in read]
             spread = (min(values), max(values)) if len(values) > 1 else None
             found.append(Figure(name, float(np.mean(values)), unit, definition, spread))
-        return found
-
-    def unread(self, curves: Sequence[Curve], rated: float, ratio: float) -> dict[str, str]:
-        """Why figures of ``evaluate`` are missing, by name."""
-        return unread([self.read(curve, rated, ratio) for curve in curves])
+        return found, why
 
     def check(self, curve: Curve, number: int, rated: float) -> None:
         missing = [name for name in self.columns if name not in curve]
