@@ -18,6 +18,8 @@ BEFORE = 0.04
 NEARER = 0.25
 # Branches no further apart than so many deviations of the samples cannot be told; from so many on there is no doubt.
 TOLD, SURELY = 4.0, 12.0
+# A first branch is held against a later one by the mean of so many samples; it joins it before this share of its way, or something drifts.
+TOGETHER, JOINED = 5, 0.7
 # Branches at the opposite torque may lie otherwise by a share of the range of the turning: those that are nearer leave a doubt.
 OTHERWISE = 0.05
 
@@ -37,6 +39,39 @@ def uncertain(torques: Floats, turning: Floats) -> int:
     if found is None or found.apart > (OTHERWISE * np.ptp(turning) if found.mirrored else SURELY * scatter(turning)):
         return 0
     return int(np.argmax(np.abs(torques - torques[0]) > BEFORE * np.ptp(torques)))
+
+
+def joined_after(torques: Floats, turning: Floats) -> float:
+    """How far the torque [N m] of a loop that begins on neither branch goes before its way joins the branch that passes there the same way later: so far
+    it hangs on what was done before.  0 where none passes, or where it never joins: then something drifts."""
+    way = way_of(torques)
+    turned = first_turn(way)
+    come = np.flatnonzero((way[turned:-1] < 0.0) & (way[turned + 1 :] >= 0.0)) + turned
+    if not len(come):
+        return 0.0
+    later = slice(come[-1], come[-1] + 1 + first_turn(way[come[-1] :]))
+    covered = int(np.searchsorted(np.maximum.accumulate(way[: turned + 1]), way[later].max(), side="right"))
+    if covered < TOGETHER or len(way[later]) < TOGETHER:
+        return 0.0
+    order = np.argsort(way[later], kind="stable")
+    off = turning[:covered] - np.interp(way[:covered], way[later][order], turning[later][order])
+    means = np.convolve(off, np.full(TOGETHER, 1.0 / TOGETHER), "valid")
+    apart = np.flatnonzero(np.abs(means) > TOLD * scatter(turning) * (2.0 / TOGETHER) ** 0.5)
+    there = float(way[apart[-1] + TOGETHER - 1]) if len(apart) else 0.0
+    return there if there < JOINED * way[:covered].max() else 0.0
+
+
+def way_of(torques: Floats) -> Floats:
+    """How far torques [N m] are from the first one, the way that they begin to go."""
+    way: Floats = first_sense(torques) * (torques - torques[0])
+    return way
+
+
+def first_turn(way: Floats) -> int:
+    """The sample at which a ``way`` that rises turns back, by more than a sensor's noise."""
+    highest = np.maximum.accumulate(way)
+    back = np.flatnonzero(way < highest - SAME * np.ptp(way))
+    return int(np.argmax(way[: back[0]])) if len(back) else len(way) - 1
 
 
 class Branches(NamedTuple):

@@ -115,8 +115,8 @@ def floating_text(floating: Mapping[str, int]) -> str:
     runs = f"run {next(iter(floating))}" if len(floating) == 1 else f"{len(floating)} runs"
     count = sum(floating.values())
     return (f"{count} sample{'s' * (count > 1)} of {runs} near no torque not compared: to {100 * FLOATING:g} % of the rated the"
-            " output floats, and the first samples of a loop whose ways lie close hang on whether it was gone round before; key figures are read without them,"
-            " a lost motion not at all where one way is left out at its torque")
+            " output floats, and the first samples of a loop hang on what was before it where its ways lie close, or until they join the branch that passes"
+            " there again; key figures are read without them, a lost motion not at all where one way is left out at its torque")
 
 
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float]) -> list[str]:

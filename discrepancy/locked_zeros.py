@@ -37,15 +37,14 @@ def left_of(space: Workspace, fit: Fit, name: str) -> float:
 
 
 def zero_text(name: str, turned: float, unfit: bool, period: float) -> str:
-    """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's, to whole turns of the cranks, the ``period``, after which positions are
-    much alike (after one of the input they are not); empty where that is near.  One that is ``unfit`` has no number: a
+    """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's; empty where that is near, to whole turns of the cranks, the ``period``,
+    after which positions are much alike (after one of the input they are not).  One that is ``unfit`` has no number: a
     large effect hides the pattern, and where that is found then, near or far, says nothing."""
     counted = f"where the input was locked is counted from the zero of the transmission errors of mounting {name.partition('[')[2].rstrip(']')}"
     if unfit:
         return (f"{counted}; that zero is of a model which does not fit yet (they are off by more than {UNFIT:g} times their noise) and may move when what is"
                 " missing is found: change nothing for it before")  # fmt: skip
-    degrees = math.degrees(math.remainder(turned, period))
-    if abs(degrees) < TURNED:
+    if abs(math.degrees(math.remainder(turned, period))) < TURNED:
         return ""
-    return (f"{counted}, found {degrees:.0f} deg of the input from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT} (a diagnosis"
-            " then looks for the position, too)")  # fmt: skip
+    return (f"{counted}, found {math.degrees(turned):.0f} deg of the input from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT}"
+            " (a diagnosis then looks for the position, too)")  # fmt: skip

@@ -22,7 +22,7 @@ from pydantic import Field, ValidationError, field_validator
 from tomlkit.items import InlineTable, Table
 
 from discrepancy.campaign.amount import is_number, split
-from discrepancy.counted_from import zero_texts
+from discrepancy.counted_from import ZERO, zero_texts, zeros_of
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from discrepancy.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
@@ -135,6 +135,10 @@ class ModelFile:
         for parameters in self.effects.values():
             found |= {name: float(entry["value"]) for name, entry in parameters.items()}
         return found
+
+    def zeros_of(self, campaign: str) -> dict[str, float]:
+        """By its nuisance (``angle_zero[1]``) the output angle [rad] of the model at which an angle of that campaign is 0, as it was fitted."""
+        return {f"{ZERO}{mounting}]": zero for (name, mounting), zero in zeros_of(self.steps).items() if name == campaign}
 
 
 def every_effect() -> dict[str, Effect]:

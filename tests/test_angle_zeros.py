@@ -47,3 +47,28 @@ def test_beside_a_large_effect_a_zero_is_found_by_the_pattern_alone():
     model = PhysicalModel(ModelFile(reducer.name, reducer), replace(campaign(), reducer=reducer, records=(record,)))
     # It was taken for the model's own, 0.  The effect bends the pattern a little: a fit looks for the zero a quarter of a wave to either side.
     assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=0.125 * 2.0 * np.pi / 80)
+
+
+TRILOBE = {"pin_ring_trilobe": 4e-6, "pin_ring_trilobe_angle": 0.7}
+
+
+@pytest.mark.parametrize("zero, known", [(13.2, None), (-22.4, None), (40.3, 40.3)])
+def test_beside_a_ring_that_is_off_waves_are_told_apart(zero, known):
+    """A model file with an effect fixed to the ring: 4.5 degrees further the pattern is nearly, but not, the same.
+
+    It was looked for within a wave, where `extend` had found it beyond, so that what was added contradicted its measurements.  That which a step has
+    stands among several that are alike: three lobes look much alike 60 degrees further.
+    """
+    reducer = load_reducer("RV20E-121")
+    bench = Bench(reducer, {})
+    at = Condition(bench.rated_speed, bench.rated_load)
+    angles = np.linspace(0.0, 2.0 * np.pi, 1800, endpoint=False)
+    wave = 2.0 * np.pi / 80
+    noise = 2e-6 * np.random.default_rng(5).standard_normal(len(angles))
+    factors = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
+    record = Record("run", "transmission_error", "rad", "a", 1, bench.column("transmission_error", at, TRILOBE, angles + zero * wave) + noise,
+                    {"angle": angles}, factors, stated_noise=2e-6)  # fmt: skip
+    own = {"pin_position_errors": {name: {"value": value} for name, value in TRILOBE.items()}}
+    steps = ({"campaign": "a", "nuisances": {"angle_zero[1]": known * wave}},) if known else ()
+    model = PhysicalModel(ModelFile(reducer.name, reducer, effects=own, steps=steps), replace(campaign(), name="a", reducer=reducer, records=(record,)))
+    assert model.zeros["angle_zero[1]"] == pytest.approx(zero * wave, abs=wave / 48)

@@ -49,6 +49,16 @@ def test_speeds_and_loads_as_measured_are_one(tmp_path):
     assert len([d for d in proposal.doubts if "500 rpm is taken for the input_speed" in d.text]) == 1
 
 
+def test_a_line_above_the_table_says_whose_speed_the_name_has(tmp_path):
+    """It was doubted by its size, beside the line that says it."""
+    proposal = proposed(tmp_path, {"te_50Nm_15rpm.csv": ["Rotação de saída: 15 rot/min"], "te_50Nm_900rpm.csv": ["Rotação de entrada: 900 rot/min"]})
+    assert {"output_speed": "15 rpm", "load_torque": "50 N.m"} in proposal.conditions.values()
+    assert not any("is taken for" in d.text for d in proposal.doubts)
+    # The other shaft's is no word for it.
+    proposal = proposed(tmp_path, {"te_50Nm_900rpm.csv": ["Rotação de saída: 7.4 rot/min"]})
+    assert any("900 rpm is taken for the input_speed" in d.text for d in proposal.doubts)
+
+
 def test_speeds_that_are_taken_for_one_shafts_are_told_once(tmp_path):
     """A note for each speed said the same."""
     proposal = proposed(tmp_path, {f"te_{load}Nm_{speed}rpm.csv": [] for load in (42, 167) for speed in (1500, 600, 15)})

@@ -1,19 +1,22 @@
 """A loop that was gone round before its first sample begins on its branch, not half-way between both."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from discrepancy.campaign.load import load_campaign
-from discrepancy.closed_loop import is_closed, uncertain
+from discrepancy.closed_loop import is_closed, joined_after, uncertain
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import OverTorque, loop_change, signal
+from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.problem import Record
 from orchestrator.settings import Setting
 from studies.hysteresis import one_angle, torque_way
 from studies.solve import ARCMIN
+from tests.test_other_places import campaign
 
 # An oval ring pinches its discs, so that friction holds their loop open by minutes of arc.
 OVAL = {"pin_ring_ovality": 6e-6, "pin_ring_ovality_angle": 0.7}
@@ -82,6 +85,36 @@ def at_rest(torque, width=0.2):
         memory = min(max(memory, t / 167.0 - width), t / 167.0 + width)
         turning.append(memory)
     return np.array(turning)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_first_branch_joins_that_which_passes_there_later(seed, sense):
+    """From rest to the largest torque, round, and up once more: until it slips what friction keeps shows where the reducer was."""
+    torque = np.concatenate([cycle(), cycle()[1:41]])
+    noise = 0.004 * np.random.default_rng(seed).standard_normal(len(torque))
+    joined = joined_after(sense * torque, sense * (at_rest(torque) + noise))
+    # Both slip from 0.2 of the largest torque on.
+    assert 0.18 * 167.0 < joined < 0.3 * 167.0
+    # Gone round before; not passed again; drifting all the way.
+    twice = np.concatenate([branches(cycle()), branches(cycle())[1:41]])
+    assert joined_after(torque, twice + noise) == 0.0
+    assert joined_after(cycle(), at_rest(cycle())) == 0.0
+    assert joined_after(torque, twice + noise + 0.3 * np.linspace(0.0, 1.0, len(torque))) == 0.0
+
+
+def test_repetitions_are_left_out_alike():
+    """Else they would be held against each other sample by sample where they are not the same samples."""
+    torque = np.concatenate([cycle(), cycle()[1:41]])
+    loops = tuple(
+        Record(f"r{k}", "hysteresis", "rad", "c", k, at_rest(torque) + 0.03 * np.random.default_rng(k).standard_normal(len(torque)), {"torque": torque},
+               {"locked_at": 0.0}, tags={"locked": "input"})
+        for k in range(1, 7)
+    )  # fmt: skip
+    several = replace(campaign(), records=loops)
+    kept = [defined_at(loop, several) for loop in loops]
+    assert len({joined_after(torque, loop.values) for loop in loops}) > 1
+    assert all(np.array_equal(one, kept[0]) for one in kept) and 0.5 < kept[0].mean() < 0.97
 
 
 def test_what_is_none():

@@ -1,6 +1,7 @@
 """Where each mounting counts its angles from, by the pattern of the transmission error."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from discrepancy.outlying_samples import bridged
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import LONG
 from discrepancy.prediction.conditions import angle_zero, turns_of
-from discrepancy.prediction.curves import shifted_errors
+from discrepancy.prediction.curves import OverAngle, shifted_errors, signal
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.whitening import gain
@@ -18,20 +19,29 @@ from fmu_src.arrays import Floats
 # Places in a wave of the pattern that fixes where an angle is counted from.
 PHASES = 48
 SHARES = np.linspace(-0.5, 0.5, PHASES, endpoint=False)
+# Samples by which a likely wave is found, and of how many it is looked up which it is.
+FEW, LIKELY = 2048, 16
 # A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
 OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
 
 
 def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
-                standing: Mapping[str, float], always: bool) -> dict[str, float]:  # fmt: skip
+                standing: Mapping[str, float], always: bool, known: Mapping[str, float] | None = None) -> dict[str, float]:  # fmt: skip
     """The output angle [rad] of the model at which a mounting's angle is 0, by its nuisance; one ``wave`` [rad] of the pattern is looked through.
+
+    Of a model with parts that are off waves are not alike: then it is one that leaves least, of those alike that nearest to what is ``known``, or to 0.
 
     A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``).
     """
-    shifts = SHARES * wave
     zeros: dict[str, float] = {}
     for name, record in telling(bench, records).items():
-        found, left = shown_at(bench, record, for_record(record, {**zeros, **standing}), shifts)
+        own = for_record(record, {**zeros, **standing})
+        middle = 0.0 if known is None else middle_of_wave(bench, record, own, wave, known.get(name, 0.0))
+        if middle:
+            zeros[name] = middle + float(SHARES[np.argmin([misfit(record, e) for e in shown_at(bench, record, own, middle + SHARES * wave)[1]])]) * wave
+            continue
+        shifts = SHARES * wave
+        found, left = shown_at(bench, record, own, shifts)
         misfits = [misfit(record, e) for e in left]
         best = int(np.argmin(misfits))
         least, more = misfits[best], misfits[PHASES // 2] - misfits[best]
@@ -40,6 +50,44 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
         if more > OF_MISFIT * least or elsewhere or always:
             zeros[name] = float(shifts[best])
     return zeros
+
+
+def middle_of_wave(bench: Bench, record: Record, own: dict[str, float], wave: float, near: float) -> float:
+    """Middle [rad] of the ``wave`` within half a turn of ``near`` in which the record's angle 0 lies: of those that tell it alike the nearest."""
+    half, nearest = round(np.pi / wave), round(near / wave)
+    shifts = wave * (np.arange(nearest - half, nearest + half)[:, None] + SHARES)
+    few = thinned(record)
+    misfits = np.reshape([misfit(few, e) for e in shown_at(bench, few, own, shifts.ravel())[1]], shifts.shape)
+    # Waves are told apart by less than a step of phase changes, and than what lies between few nodes.
+    likely = np.argsort(misfits.min(axis=1))[:LIKELY]
+    places = {k: between(shifts[k], misfits[k]) for k in likely}
+    left = {k: record.values - predicted_at(bench, record, own, at) for k, at in places.items()}
+    best = min(left.values(), key=lambda e: misfit(record, e))
+    alike = [k for k, e in left.items() if gain(e, best) <= SURELY]
+    return wave * float(nearest - half + min(alike, key=lambda k: abs(places[k] - near)))
+
+
+def thinned(record: Record) -> Record:
+    """The record, or every so many of its samples."""
+    step = -(-len(record.values) // FEW)
+    if step == 1 or record.quantity == ORDERS:
+        return record
+    return replace(record, values=record.values[::step], axes={name: np.asarray(axis)[::step] for name, axis in record.axes.items()}, far_off=())
+
+
+def predicted_at(bench: Bench, record: Record, own: dict[str, float], zero: float) -> Floats:
+    """What a record shows with its angle 0 at ``zero`` [rad], as finely as any prediction."""
+    shown = signal(OverAngle(bench, curve_of(record), "transmission_error"), {**own, angle_zero(record): zero})
+    return orders_shown(record, shown) if record.quantity == ORDERS else shown
+
+
+def between(places: Floats, misfits: Floats) -> float:
+    """Where the least of ``misfits`` at even ``places`` would be: of a parabola through three of them."""
+    k = int(np.argmin(misfits[1:-1])) + 1
+    before, least, after = misfits[k - 1 : k + 2]
+    bent = before - 2.0 * least + after
+    share = float(np.clip(0.5 * (before - after) / bent, -0.5, 0.5)) if bent > 0.0 else 0.0
+    return float(places[k] + share * (places[1] - places[0]))
 
 
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],

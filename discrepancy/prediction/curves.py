@@ -15,7 +15,7 @@ from discrepancy.prediction.bench import TORQUE_STEP, Bench, Starts
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, condition_of, held_condition, places_of_zero, zero_of
 from discrepancy.prediction.fineness import EVERY_SAMPLE, ErrsAt
 from discrepancy.prediction.stations import Stations, own_stations
-from discrepancy.prediction.support import COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
+from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, TorqueNodes, angle_nodes, banded_nodes, torque_nodes
 from discrepancy.prediction.torque_way import NEAR_NOTHING, entered, way
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import NEAR, Record
@@ -280,7 +280,9 @@ def signal(curve: Curve[Nodes], values: Values) -> Floats:
 def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:
     """Transmission error [rad] of the record's samples for several places of its angle 0 [rad], from one run."""
     curve = OverAngle(bench, record, "transmission_error")
-    nodes = angle_nodes(curve.places({}), curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
+    # Nodes go a pitch beyond what they are for.
+    ends = curve.places({})[:, None] + [min(float(zeros.min()) + BEYOND, 0.0), max(float(zeros.max()) - BEYOND, 0.0)]
+    nodes = angle_nodes(ends, curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
     assert nodes is not None
     series = curve.run(values, nodes)
     return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]

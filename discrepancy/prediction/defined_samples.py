@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.campaign.model import Campaign
-from discrepancy.closed_loop import uncertain
+from discrepancy.closed_loop import joined_after, uncertain, way_of
 from discrepancy.problem import Record
 from fmu_src.arrays import Mask
 
@@ -23,11 +23,20 @@ def defined(record: Record, campaign: Campaign) -> Record:
 
 def defined_at(record: Record, campaign: Campaign) -> Mask:
     """(n,) Samples of a record that the model can foretell: of a loop those at more than ``FLOATING`` of the rated torque, and not the first ones where
-    nobody can tell how it was begun."""
+    nobody can tell how it was begun: what friction kept of the play then shows until the loop joins the branch that passes there again."""
     if record.quantity != "hysteresis" or "torque" not in record.axes:
         return np.ones(len(record.values), bool)
     torque = np.asarray(record.axes["torque"], float)
     rated = campaign.rated_torque or float(np.abs(torque).max())
     kept: Mask = np.abs(torque) > FLOATING * rated
     kept[: uncertain(torque, record.values)] = False
+    if not record.closed:
+        way, joined = way_of(torque), max(joined_after(np.asarray(r.axes["torque"], float), r.values) for r in repetitions(record, campaign))
+        kept[: np.argmax(way > joined) if joined > 0.0 else 0] = False
     return kept
+
+
+def repetitions(record: Record, campaign: Campaign) -> list[Record]:
+    """Loops that repeat a record, itself among them: all are left alike, or they would tell no noise."""
+    key = (record.quantity, record.condition, record.mounting, record.tags)
+    return [record, *(r for r in campaign.records if (r.quantity, r.condition, r.mounting, r.tags) == key and "torque" in r.axes)]

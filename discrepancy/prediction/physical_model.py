@@ -107,8 +107,12 @@ class PhysicalModel:
         self.cages = Cages(in_process, self.records, self.as_seen, self.threads)
         self.identities = {id(record): identity(record) for record in self.records}
         self.shown: dict[Hashable, Floats] = {}
+        # Amplitudes of the file's own effects where these are off.
+        off = {p.variable.name: p.variable.start for effect in every_effect().values() for p in effect.amplitudes()}
+        self.without_own = {name: off[name] for name, value in present.items() if off.get(name, value) != value}
         if zeros is None:
-            self.zeros = angle_zeros(self.bench, self.records, self.wave, self.for_record, self.standing(), always=len(nuisances) < len(campaign.nuisances))
+            always, known = len(nuisances) < len(campaign.nuisances), model.zeros_of(campaign.name) if self.without_own else None
+            self.zeros = angle_zeros(self.bench, self.records, self.wave, self.for_record, self.standing(), always, known)
         # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
         for bench in (self.bench, in_process):
             bench.zeros.update(self.zeros)
@@ -117,9 +121,6 @@ class PhysicalModel:
         self.locked_waves = LockedWaves(self.records, list(self.zeros), self.wave * abs(self.bench.ratio), self.discs)
         self.unstated_places = UnstatedPlaces(self.records, turn, turn / model.reducer.topology.pins)
         self.search_bench = in_process.rougher.forgetful()
-        # Amplitudes of the file's own effects where these are off.
-        off = {p.variable.name: p.variable.start for effect in every_effect().values() for p in effect.amplitudes()}
-        self.without_own = {name: off[name] for name, value in present.items() if off.get(name, value) != value}
         if zeros is None:
             self.cages.place(self.standing())
             self.place_unstated(frozenset(), self.standing())

@@ -314,13 +314,14 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
     found: dict[str, Guess[str]] = {}
     actual: dict[str, str] = {}
     doubts = []
-    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (stated_above(table.above), ABOVE)]
+    above = stated_above(table.above)
+    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (above, ABOVE)]
     for numbers, where in sources:
         for field, (number, unit) in numbers.items():
             key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
             if field == "speed":
                 rpm = conversion(unit, "rpm")[0] * number
-                side = speed_column(rpm, table, entries) or speed_role(rpm)
+                side = speed_above(rpm, above) or speed_column(rpm, table, entries) or speed_role(rpm)
                 key, reason, sure = side.value, f"{where}; {side.reason}", side.sure
             text = f"{number:g} {unit}"
             if key in found:
@@ -341,6 +342,16 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
     if name.mounting:
         found["mounting"] = Guess(name.mounting, f"the file's name, by {name.pattern!r}")
     return found, actual, doubts
+
+
+def speed_above(rpm: float, above: Mapping[str, tuple[float, str]]) -> Guess[str] | None:
+    """The side of which the lines above the table say the same speed."""
+    for role in ("input_speed", "output_speed"):
+        if role in above:
+            number, unit = above[role]
+            if abs(conversion(unit, "rpm")[0] * number - rpm) < SAME_SPEED * rpm:
+                return Guess(role, f"{ABOVE} says whose it is")
+    return None
 
 
 def speed_column(rpm: float, table: Table, entries: Mapping[str, Entry]) -> Guess[str] | None:
