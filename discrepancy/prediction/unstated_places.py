@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.closed_loop import scatter
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.by_effects import Effects, restored, with_most
 from discrepancy.problem import ERROR, Parameter, Record, is_unplaced
@@ -38,8 +39,9 @@ FROM_THERE = 4.0
 CLEARLY = 0.25
 # Squares that another place leaves, of those that the one taken leaves: from more it stays.
 BETTER = 0.5
-# Squares of a transmission error that effects leave, of those without: less explains it.
-EXPLAINED = 0.5
+# Squares beyond its noise of a transmission error that effects leave, of those without: less explains it, if there are more than so many deviations of
+# what the noise's own squares may be.
+EXPLAINED, SEEN = 0.5, 5.0
 # Samples of a loop that are looked at.
 SAMPLES = 40
 
@@ -134,9 +136,14 @@ class UnstatedPlaces:
         return abs(math.remainder(place - other, self.turn)) < NEAR * self.step
 
     def explain(self, error: ErrorWith) -> bool:
-        """Whether effects leave far less of the transmission errors than is there without."""
-        left, whole = (sum(float(np.sum((r.values - error(r, which)) ** 2)) for r in self.errors) for which in (True, False))
-        return left < EXPLAINED * whole
+        """Whether effects leave far less of the transmission errors, beyond their noise, than is there without."""
+        left = whole = wide = 0.0
+        for record in self.errors:
+            beside, without = (record.values - error(record, which) for which in (True, False))
+            count, noise = len(beside), min(scatter(beside) ** 2, float(np.mean(beside**2)))
+            left, whole = left + float(np.sum(beside**2)) - count * noise, whole + float(np.sum(without**2)) - count * noise
+            wide += 2.0 * count * noise**2
+        return whole > SEEN * math.sqrt(wide) and left < EXPLAINED * whole
 
     def searched(self, loop: Record, predicted: LoopAt, now: float | None) -> float | None:
         """The place [rad] at which a loop is as measured, if there is one that leaves far less than the mean over positions; that where it is ``now``
