@@ -14,7 +14,7 @@ from discrepancy.problem import ERROR, ORDERS
 # Of the input [deg]: nearer to the model's zero a place shows as where it is stated.
 TURNED = 5.0
 # Root mean square, over the noise, of what a fit leaves of transmission errors: from more its zero may be another once the misfit is explained.
-UNFIT = 3.0
+UNFIT = 1.5
 
 
 def zero_texts(model: PhysicalModel, space: Workspace, fit: Fit) -> list[str]:

@@ -1,7 +1,7 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise, product
 from typing import Any
@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
-from discrepancy.campaign.design import Design
 from discrepancy.campaign.model import Campaign, Rig
-from discrepancy.campaign.pairs import PAIRS, judge
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.held_names import HELD, LOCKED_AT
@@ -31,6 +29,7 @@ from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.unstated_texts import without_place
+from discrepancy.untold import origins_untold
 from discrepancy.usual_noise import UNMEASURED
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
@@ -165,8 +164,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
-        untold = untold_parts(answer.effects) + untold_origins(names, campaign)
-        return NextRun(answer, None, list(names), "; ".join(filter(None, [text, against, *untold])), left)
+        untold = origins_untold([*names, *answer.model.file.effects], campaign) + untold_parts(answer.effects)
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
@@ -226,13 +225,6 @@ def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
     several = (effect for effect in effects if effect.get("other_places"))
     return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
-
-
-def untold_origins(names: Iterable[str], campaign: Campaign) -> list[str]:
-    """Of named effects that may come from one thing or another: that this campaign does not tell which, and what does."""
-    verdicts = (judge(pair, Design(campaign)) for pair in PAIRS if pair.within in names)
-    return [f"whether it is {', or '.join(v.pair.effects)}, this campaign does not tell: {v.pair.experiment}"
-            for v in verdicts if v.status == "not separable"]  # fmt: skip
 
 
 def plainly(member: Refit) -> str:

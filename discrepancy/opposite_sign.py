@@ -3,25 +3,67 @@
 The seat of one crank, too far forward by as much as it might be too far back, opens a loop as wide.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from typing import Any
 
+from discrepancy.as_told import told_name
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.other_places import as_shown
+from discrepancy.problem import Candidate, Parameter
+from fmu_src.table import Table
 
 
 def sign_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[str]:
     """A sentence for each named effect whose sign the fitted runs do not tell; two predictions each."""
+    return [
+        f"{member.name}: with the opposite sign it shows the same in the runs that were fitted; they tell its size, not which way"
+        for member in alone(effects, found)
+        if either_sign(member, found)
+    ]
+
+
+def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables: Sequence[Table]) -> list[str]:
+    """A sentence for each direction of a named effect that half a turn further shows the same; two predictions each.
+
+    Of a ring with an even number of pins, about discs that take turns half a turn apart, an error is as well on the other side.
+    """
+    found_doubts = []
+    for member in alone(effects, found):
+        fitted = dict(member.fit.values)
+        own = {p.name for p in member.own}
+        rest = {name: value for name, value in fitted.items() if name not in own}
+        for p, other in half_a_turn_on(member):
+            if as_shown(found.fits.space, fitted, rest)({**fitted, p.name: other}):
+                here, there = (f"{math.degrees(angle):.1f} deg" for angle in (fitted[p.name], other))
+                found_doubts.append(
+                    f"{told_name(p.name, tables)}: {there} shows the same in the runs that were fitted as {here}; they do not tell which of the two it is"
+                )
+    return found_doubts
+
+
+def half_a_turn_on(member: Refit) -> Iterator[tuple[Parameter, float]]:
+    """Directions [rad] of a member's effects half a turn further, where that is another one: an oval is not."""
+    for candidate in member.candidates:
+        for p in candidate.shapes:
+            if p.is_direction and (further := math.remainder(math.pi, period(candidate, p))):
+                yield p, math.remainder(member.fit.values[p.name] + abs(further), 2.0 * math.pi)
+
+
+def period(candidate: Candidate, shape: Parameter) -> float:
+    """The angle [rad] after which a direction is the same again, which is looked through in even steps: a turn, half of it for an oval."""
+    places = sorted({grid[shape.name] for grid in candidate.shape_grid})
+    whole = 2.0 * math.pi / len(places) / (places[1] - places[0]) if len(places) > 1 else 1.0
+    return 2.0 * math.pi / round(whole)
+
+
+def alone(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[Refit]:
+    """The refits of named effects by themselves; none of a diagnosis that was stopped."""
     if found.verdict == STOPPED:
         return []
     members = {m.name: m for m in found.fits.members}
-    alone = [members[candidate] for e in effects for candidate in e["candidates"] if candidate in members]
-    return [
-        f"{member.name}: with the opposite sign it shows the same in the runs that were fitted; they tell its size, not which way"
-        for member in alone
-        if either_sign(member, found)
-    ]
+    return [members[candidate] for e in effects for candidate in e["candidates"] if candidate in members]
 
 
 def either_sign(member: Refit, found: Diagnosis) -> bool:

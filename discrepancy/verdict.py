@@ -24,13 +24,15 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, U
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import sign_doubts
+from discrepancy.opposite_sign import direction_doubts, sign_doubts
 from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.ring_directions import ring_texts
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
 from discrepancy.unstated_texts import unstated_texts
+from discrepancy.untold import origins_untold
 from discrepancy.waves import waves_of
 from discrepancy.whose_angle import gained_as_input
 from fmu_src.progress import task
@@ -40,7 +42,8 @@ from fmu_src.threads import sharing_no_matrices
 @dataclass(frozen=True)
 class Answer:
     """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
-    ``made`` is when it was made [s since 1970]: one that is kept is found again later."""
+    ``made`` is when it was made [s since 1970]: one that is kept is found again later.  ``untold``: from which of two things what is named, or
+    stands in the model file, comes."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -53,6 +56,7 @@ class Answer:
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
     made: float = field(default_factory=time.time, compare=False)
+    untold: list[str] = field(default_factory=list)
 
     @property
     def left_over(self) -> str:
@@ -70,7 +74,7 @@ class Answer:
         plain = self.diagnosis.to_dict()
         return plain | {
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
-            "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings,
+            "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings, "untold": self.untold,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
             "key_figures": [f.as_json() for f in self.figures],
         }  # fmt: skip
@@ -167,9 +171,10 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, best.fit if best else doctor.space.base)
-    doubts += sign_doubts(effects, found)
-    warnings = beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor)
+    doubts += ring_texts(effects, fit.values) + sign_doubts(effects, found) + direction_doubts(effects, found, as_told.tables_of(model))
+    untold = origins_untold([*names, *model.file.effects], model.campaign)
+    warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
+    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor, untold=untold)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

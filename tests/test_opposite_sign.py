@@ -9,9 +9,10 @@ import pytest
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.verdict import ONE, STOPPED
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import sign_doubts
+from discrepancy.opposite_sign import direction_doubts, half_a_turn_on, sign_doubts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.ring_directions import ring_texts
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 
@@ -33,10 +34,16 @@ def space():
 
 
 def doubts(space, name, values, verdict=ONE):
+    return sign_doubts([{"candidates": [name]}], found_as(space, name, values, verdict))
+
+
+def found_as(space, name, values, verdict=ONE):
+    return SimpleNamespace(verdict=verdict, fits=SimpleNamespace(members=[member_of(space, name, values)], space=space))
+
+
+def member_of(space, name, values):
     (candidate,) = [c for c in space.model.candidates if c.name == name]
-    member = SimpleNamespace(name=name, candidates=(candidate,), own=candidate.parameters, fit=SimpleNamespace(values=values))
-    found = SimpleNamespace(verdict=verdict, fits=SimpleNamespace(members=[member], space=space))
-    return sign_doubts([{"candidates": [name]}], found)
+    return SimpleNamespace(name=name, candidates=(candidate,), own=candidate.parameters, fit=SimpleNamespace(values=values))
 
 
 def test_a_crank_seat_shows_its_size_in_a_loop_and_not_which_way(space):
@@ -50,3 +57,39 @@ def test_what_can_only_go_one_way_or_shows_otherwise_is_not_doubted(space):
     assert not doubts(space, "needle_clearance", {"needle_clearance_added": 3e-6})
     # A gap that is larger lets the output turn further.
     assert not doubts(space, "profile_modification", {"equidistant_added": -5e-6, "shift_added": 0.0})
+
+
+@pytest.fixture(scope="module")
+def turning():
+    """Transmission errors over a turn of the output, twice."""
+    reducer = load_reducer("RV20E-121")
+    rng, angle = np.random.default_rng(1), np.linspace(0.0, 2.0 * np.pi, 900, endpoint=False)
+    records = tuple(Record(f"r{k}", "transmission_error", "rad", "a", k, 1e-7 * rng.standard_normal(900), {"angle": angle}, FACTORS, stated_noise=1e-7)
+                    for k in (1, 2))  # fmt: skip
+    model = PhysicalModel(ModelFile(reducer.name, reducer), replace(CAMPAIGN, reducer=reducer, records=records), zeros={})
+    found = Workspace(model)
+    found.fit_base()
+    return found
+
+
+@pytest.mark.parametrize("name, values, here, there", [
+    ("pin_position_errors.runout", {"pin_ring_runout": 5e-6, "pin_ring_runout_angle": 0.7}, "40.1 deg", "-139.9 deg"),
+    # Its lobes and hollows: half a turn on is sixty degrees on.
+    ("pin_position_errors.trilobe", {"pin_ring_trilobe": 4e-6, "pin_ring_trilobe_angle": 0.7}, "40.1 deg", "100.1 deg"),
+])  # fmt: skip
+def test_a_ring_shows_as_well_what_is_on_its_other_side(turning, name, values, here, there):
+    """One of the two was told, with an interval of half a degree."""
+    (text,) = direction_doubts([{"candidates": [name]}], found_as(turning, name, values), turning.model.bench.tables)
+    assert f"{there} shows the same in the runs that were fitted as {here}" in text and "_angle: " in text
+    assert not direction_doubts([{"candidates": [name]}], found_as(turning, name, values, STOPPED), turning.model.bench.tables)
+
+
+def test_an_oval_is_the_same_half_a_turn_on(turning):
+    assert not list(half_a_turn_on(member_of(turning, "pin_position_errors.ovality", {"pin_ring_ovality": 4e-6, "pin_ring_ovality_angle": 0.7})))
+
+
+def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():
+    effect = {"parameters": {"pin_ring_runout": {}, "pin_ring_runout_angle": {"direction": True}}}
+    (text,) = ring_texts([effect], {"angle_zero[1]": 0.1, "pin_ring_runout": 5e-6})
+    assert "count from its pin 1" in text and "crank 1 stands at 5.7 deg where mounting 1 shows angle 0" in text
+    assert not ring_texts([effect], {"pin_ring_runout": 5e-6}) and not ring_texts([{"parameters": {"disc_runout_angle": {"direction": True}}}], {"angle_zero[1]": 0.1})

@@ -71,7 +71,8 @@ export function nextPart(bag) {
     return h(
       "section",
       {},
-      h("h2", {}, "Nothing is left to explain: no further experiment is asked for"),
+      h("h2", {}, answer.untold?.length ? "Nothing is left to explain, and one thing to ask" : "Nothing is left to explain: no further experiment is asked for"),
+      ...(answer.untold ?? []).map((text) => h("p", {}, text)),
       h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
     );
   return h("section", {}, h("h2", {}, "What to measure next"), h("div", { class: "panel" }, ask, progressOf("next")));
