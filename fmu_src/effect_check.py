@@ -239,17 +239,24 @@ def always_returns(body: list[ast.stmt]) -> bool:
 
 def of_variables(tree: ast.Module, file: Path, effect: Any, frame: Frame) -> list[Finding]:
     """Names that the unit or another effect has already, or that the effect itself has twice."""
-    taken = {v.name: f"the unit has {ROLE[v.role]}" for v in frame.own}
+    taken = {v.name: owned("the unit", v) for v in frame.own}
     for name, (other, _) in frame.effects.items():
-        taken |= {v.name: f"the effect {name} has {ROLE[v.role]}" for v in other.variables()}
+        taken |= {v.name: owned(f"the effect {name}", v) for v in other.variables()}
     findings = []
     for v in effect.variables():
         if v.name in taken:
-            findings.append(Finding(file, line_of(tree, v.name), f"{taken[v.name]} {v.name} already; choose another name"))
-        taken[v.name] = f"the effect itself has {ROLE[v.role]}"
+            findings.append(Finding(file, line_of(tree, v.name), f"{taken[v.name]}; choose another name"))
+        taken[v.name] = owned("the effect itself", v)
         if said := wrong_unit(v, frame) or wrong_bounds(v):
             findings.append(Finding(file, line_of(tree, v.name), said))
     return findings
+
+
+def owned(owner: str, v: Variable) -> str:
+    """Who has a variable already, and what it is.  Work space of kernels stands on no page, so that its role alone would say nothing."""
+    if v.role == "scratch":
+        return f"{owner} has {v.name} already, {'an array' if v.shape else 'a number'} that its kernels compute with"
+    return f"{owner} has {ROLE[v.role]} {v.name} already"
 
 
 def wrong_bounds(v: Variable) -> str:

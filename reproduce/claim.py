@@ -149,6 +149,13 @@ class Claim:
         return f"with other numbers than the source's{'' if self.is_moved else ', which move nothing here'}, judged anew: {self.outcome}"
 
     @property
+    def cause(self) -> str:
+        """Why the claim is judged so.  That was written of the sources' numbers: where others move something, it is said which, and nothing of theirs."""
+        if not self.altered or not self.is_moved:
+            return self.why
+        return f"{', '.join(self.altered)}: the cause that is told with the source's numbers need not hold here."
+
+    @property
     def held(self) -> list[Number]:
         """Numbers of the source, with ours beside them."""
         return [number for number in self.numbers if number.published is not None]

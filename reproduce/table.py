@@ -69,7 +69,7 @@ def print_table(claims: list[Claim]) -> None:
         verdict = claim.told if claim.stands else f"{claim.told} (was: {claim.verdict})"
         condition = f"{claim.condition}. " if claim.condition else ""
         condition = f"Condition: {condition}" if condition else ""
-        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.outcome]), condition + claim.why)
+        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.outcome]), condition + claim.cause)
     console.print(table)
     if any(claim.held for claim in claims):
         console.print(figures_table(claims))
@@ -124,7 +124,7 @@ def claim_data(c: Claim) -> dict[str, Any]:
     return {
         "id": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict, "told": c.told,
         "condition": c.condition,
-        "why": c.why, "stands": c.stands, "numbers": numbers,
+        "why": c.cause, "stands": c.stands, "numbers": numbers,
         "grounds": [{"text": text, "holds": holds} for text, holds in c.grounds],
     }  # fmt: skip
 
@@ -139,11 +139,11 @@ def plain(value: Audited | None) -> float | list[float] | None:
 def tables_of(claims: list[Claim]) -> list[Export]:
     """Verdicts, and every number computed, published, printed and checked, for other programs."""
     verdicts = [
-        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.told, "condition": c.condition, "why": c.why} for c in claims
+        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.told, "condition": c.condition, "why": c.cause} for c in claims
     ]  # fmt: skip
     numbers = [
         {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "low": nan(n.low), "high": nan(n.high), "theirs": span_text(n.published),
-         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.told, "cause": c.why}
+         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.told, "cause": c.cause}
         for c in claims for n in c.numbers
     ]  # fmt: skip
     return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]

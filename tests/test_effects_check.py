@@ -7,10 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from cli.commands.effects import use_of
 from cli.main import main
 from discrepancy.catalogue.catalogue import entries
 from discrepancy.catalogue.documentation import PAGE, own_part
+from discrepancy.catalogue.ranges import range_of
 from discrepancy.catalogue.signal_words import unknown, words
+from fmu_src.effect import shape
 from fmu_src.effect_check import UNITS, check_any_file, check_file, folder_findings
 from fmu_src.source_hash import ROOT
 from studies.effect_code import not_translated
@@ -214,6 +217,7 @@ def test_a_mistyped_signal_is_refused_where_it_stands_before_anything_is_compile
     ('"my_size"', '"seal_torque"', 9, "the effect drag has a parameter seal_torque already"),
     ('"my_size"', '"pin_radius"', 9, "the unit has a parameter pin_radius already"),
     ('"my_state"', '"my_size"', 10, "the effect itself has a parameter my_size already"),
+    ('"my_size"', '"direction"', 9, "the unit has direction already, an array that its kernels compute with; choose another name"),
     ("(2,), ", "(2,), minimum=None, axes=", 10, "variable my_state: minimum = None is no number; leave it out for the usual one"),
     ('"state", 0.0', '"state", "zero"', 10, "variable my_state: start = 'zero' is no number"),
     ('"my_size", "1"', '"my_size", "Nmm"', 9, "my_size: Nmm is no SI unit, and kernels get the number as it stands; declare the SI unit"),
@@ -227,6 +231,13 @@ def test_a_mistyped_signal_is_refused_where_it_stands_before_anything_is_compile
 ])  # fmt: skip
 def test_a_wrong_declaration_is_told(tmp_path, old, new, line, message):
     assert any(found[0] == line and message in found[1] for found in told(tmp_path, HEAD.replace(old, new, 1) + hook("return")[len(HEAD) :]))
+
+
+def test_names_are_said_to_be_taken_where_parameters_are_explained():
+    for page in (PAGE, PAGE.parent / "tutorials" / "your_effect.md"):
+        text = page.read_text(encoding="utf-8")
+        assert "must be free" in text and "`soft_ring_direction`" in text
+    assert "the unit has direction already, an array that its kernels compute with; choose another name" in text
 
 
 def test_what_editors_leave_beside_a_file_is_no_effect(tmp_path):
@@ -428,6 +439,14 @@ def after(r):
     speed = abs(r.input_speed)
     r.friction_power += r.lip_torque * math.exp(-((speed / r.lip_speed) ** r.lip_power)) * speed
 """
+
+
+def test_bounds_of_a_direction_are_told_alike_by_the_check_and_the_list():
+    turn = shape("side", "rad", "where", 0.5, -3.15, 3.15, "assumed")
+    assert use_of(turn).startswith("shape, fitted within -3.15 to 3.15 rad, all round, from ") and range_of(turn) == ("deg", "28.65", "-180.5 to 180.5, all round")
+    # Neither a direction in a quarter nor the width of a pit may be any.
+    part = shape("width", "rad", "how wide", 0.1, 0.005, 2.0, "assumed", held=True)
+    assert range_of(part)[2] == "0.2865 to 114.6" and "all round" not in use_of(shape("part", "rad", "where", 0.7, 0.0, 1.571, "assumed"))
 
 
 def test_check_says_of_every_parameter_its_units_and_what_a_diagnosis_does_with_it(tmp_path, capsys):

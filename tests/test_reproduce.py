@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from cli.altered import note_of, noted_figure
+from cli.commands.reproduce import default_page
 from cli.main import main
 from fmu_src.faults import InputFault
 from reproduce import kept, rig, wall
@@ -260,7 +261,7 @@ def test_a_number_that_moves_nothing_is_said_to(capsys, monkeypatch, tmp_path):
     assert main(["reproduce", "T05", "T01", "--set", "crank.circle_radius=38mm"]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "crank.circle_radius=38mm moved nothing in T01, T05: numbers and curves there are the same without it" in told
-    assert "crank.circle_radius=38mm moved nothing in T01, T05" in html.unescape((tmp_path / "results" / "reproduce.html").read_text("utf-8"))
+    assert "crank.circle_radius=38mm moved nothing in T01, T05" in html.unescape((tmp_path / "results" / "reproduce_T05_T01_set.html").read_text("utf-8"))
     assert main(["reproduce", "T05", "T11", "--set", "bearing.clearance=10um", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["unmoved"] == ["T05"]
     still, moved = run(["T05", "T24"], changes=["pin.radius=2.9mm"])
@@ -291,6 +292,30 @@ def test_a_run_with_other_numbers_is_called_one_and_the_sources_are_computed_onc
     assert "other numbers: reproduced " in said and "judged anew" in said
     assert f'<span class="tag">{html.escape(first.told).replace("&#x27;", "&#39;")}</span>' in page_of([first], changes)
     assert as_json([first])["claims"][0]["told"] == first.told and tables_of([first])[1].frame()["verdict"][0] == first.told
+
+
+def test_other_numbers_do_not_carry_the_cause_of_the_published_verdict(capsys):
+    (theirs,), (moved,) = run(["T24"]), run(["T24"], changes=["crank.eccentricity=1.0mm"])
+    assert theirs.cause == theirs.why and moved.cause.startswith("crank.eccentricity=1.0mm (BX-40E had 1.3 mm): the cause that is told")
+    print_table([moved])
+    shown = (capsys.readouterr().out, html.unescape(page_of([moved], moved.altered)), json.dumps(as_json([moved]), ensure_ascii=False),
+             *(str(table.frame()) for table in tables_of([moved])[:2]))  # fmt: skip
+    assert all(theirs.why[:40] not in text and moved.why[:40] not in text for text in shown)
+    assert as_json([moved])["claims"][0]["why"] == moved.cause and f'<p class="why">{moved.cause}' in html.unescape(page_of([moved], moved.altered))
+    # What nothing was moved in keeps its cause.
+    (still,) = run(["T05"], changes=["crank.circle_radius=38mm"])
+    assert still.cause == still.why
+
+
+def test_a_page_of_some_claims_or_of_other_numbers_does_not_take_the_place_of_that_of_all(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    whole = tmp_path / "results" / "reproduce.html"
+    whole.parent.mkdir()
+    whole.write_text("all of them", encoding="utf-8")
+    assert main(["reproduce", "t01", "-q"]) == 0 == main(["reproduce", "T01", "--set", "crank.circle_radius=38mm", "-q"])
+    assert capsys.readouterr().out.split() == ["results/reproduce_T01.html", "results/reproduce_T01_set.html"] and whole.read_text("utf-8") == "all of them"
+    assert (default_page([], []), default_page([], ["a=1"])) == ("results/reproduce.html", "results/reproduce_set.html")
+    assert len(default_page(available_claims(), [])) < 200
 
 
 def test_a_figure_says_what_was_set_and_whether_that_moved_it():

@@ -115,6 +115,8 @@ def units_of(p: "EffectParameter") -> str:
 
 def use_of(p: "EffectParameter") -> str:
     """Whether a diagnosis fits a parameter, within which bounds, and from where."""
+    from discrepancy.catalogue.ranges import all_round
+
     v = p.variable
     unit = "" if v.unit == "1" else f" {v.unit}"
     if p.kind == "choice":
@@ -122,7 +124,7 @@ def use_of(p: "EffectParameter") -> str:
     if p.is_held:
         return f"shape, held at {float(v.start):g}{unit}, not fitted: held=True"
     grid = f", from {', '.join(f'{value:g}' for value in p.grid)}" if p.kind == "shape" else ""
-    return f"{p.kind}, fitted within {v.minimum:g} to {v.maximum:g}{unit}{grid}"
+    return f"{p.kind}, fitted within {v.minimum:g} to {v.maximum:g}{unit}{all_round(p)}{grid}"
 
 
 def tried(file: Path) -> "list[Finding]":

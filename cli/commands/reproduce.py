@@ -13,7 +13,7 @@ from fmu_src.progress import say
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     claims = sub.add_parser("reproduce", help="every claim of the sources held against the computation")
     claims.add_argument("claims", nargs="*", help="ids or prefixes: T, N16, C (default all)")
-    claims.add_argument("--output", default="results/reproduce.html", help="the page")
+    claims.add_argument("--output", help="the page (default results/reproduce.html of all claims; reproduce_T24.html of T24 alone, ..._set.html with --set)")
     claims.add_argument("--list", action="store_true", dest="listed", help="say what the claims are, compute nothing")
     claims.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE",
@@ -41,7 +41,7 @@ def reproduce(options: argparse.Namespace) -> int:
     if options.picture and not any(one.has_figure for one in stated(options.claims or None).values()):
         drawn = ", ".join(name for name, one in stated().items() if one.has_figure)
         raise InputFault(f"--picture {options.picture[0]}: {', '.join(options.claims)} has no figure; these claims have: {drawn}")
-    page = Path(options.output)
+    page = Path(options.output or default_page(options.claims, options.set))
     require_place(page, "--output", ".html")
     require_settings(options.set)
     claims = judge(options.claims or None, say, options.set)
@@ -65,6 +65,14 @@ def reproduce(options: argparse.Namespace) -> int:
     ]  # fmt: skip
     write_exports(options, lambda: noted_tables(tables_of(claims), note), lambda: figures, holdings(claims))
     return 0 if options.set or all(claim.stands for claim in claims) else 1
+
+
+def default_page(claims: list[str], changes: list[str]) -> str:
+    """Named after what was asked: a page of some claims, or of other numbers, does not take the place of that of all."""
+    from fmu_src.file_name import file_name
+
+    name = "_".join(("reproduce", *(claim.upper() for claim in claims)))
+    return f"results/{file_name(name)}{'_set' if changes else ''}.html"
 
 
 def require_settings(changes: list[str]) -> None:

@@ -46,6 +46,8 @@ WORN_AT = ("rated", "40 K warmer", "load 150 %", "speed 20 %")
 TURN, STEPS, SURFACE = 360, 6, 24
 PLANT = ("transmission_error", "hysteresis", "lost_motion", "torsional_stiffness", "input_torque", "no_load_torque", "efficiency", "temperature", "cage_speed")
 WORN = ("wear_depth", "wear_profile", "mass_loss", "debris_iron")
+# What is made of another quantity shows nothing where that does not.
+MADE_OF = {"transmission_order": "transmission_error"}
 
 
 def signal_doubts(file: Path) -> list[Finding]:
@@ -63,20 +65,30 @@ def main(name: str) -> None:
 
 def doubts_of(name: str, effect: Effect) -> list[str]:
     """A sentence for what changes and is not declared, and one where nothing that is declared changes."""
+    return doubts_in(effect, changes_of(name, effect)) if effect.signals else []
+
+
+def doubts_in(effect: Effect, found: Mapping[str, "Change"]) -> list[str]:
+    """The same of changes that were computed; whoever shows these has the same sentences."""
     declared, reducer = shown_by(effect), reducer_for(effect)
     if not declared:
         return []
-    found = changes_of(name, effect)
     lacking = [f"{q} ({change.text})" for q, change in found.items() if q not in declared and change.ratio > STANDS_OUT]
     said = []
     if lacking:
         said.append(f"signals lack {', '.join(lacking)}, which it changes at its usual size on {reducer}: where nothing else is measured a diagnosis does not"
                     " look for it; declare them, or leave them out on purpose")  # fmt: skip
-    if set(declared) <= set(found) and all(found[q].ratio < 1.0 for q in declared):
-        most = max((found[q] for q in declared), key=lambda change: change.ratio)
+    judged = {MADE_OF.get(q, q) for q in declared}
+    if judged <= set(found) and all(found[q].ratio < 1.0 for q in judged):
+        most = max((change for q, change in found.items() if q in judged), key=lambda change: change.ratio)
         said.append(f"none of its signals is changed by more than noise at its usual size on {reducer}, most {most.quantity} ({most.text}):"
                     " look at the usual size in EFFECT, and at what the hooks change")  # fmt: skip
     return said
+
+
+def not_judged(effect: Effect, found: Mapping[str, "Change"]) -> list[str]:
+    """What an effect declares and nobody looks at here: it may show there, so that it is not said to show nowhere."""
+    return [q for q in shown_by(effect) if MADE_OF.get(q, q) not in found]
 
 
 @dataclass(frozen=True)

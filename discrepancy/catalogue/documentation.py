@@ -91,6 +91,10 @@ def before(r):
 anything is compiled. Kernels call a parameter by the name that the file gives it, tools and files `effects.soft_ring.seat_compliance`, without
 leading words that the effect's name has too. An effect must vanish at its amplitudes' off values.
 
+The name of a parameter or a state must be free: no variable of the unit, no array of its kernels (these stand on no page) and no parameter of another
+effect, one's own others included, may have it. `rvwear effects --check` says of a name that is taken who has it. One that begins with the file's name,
+as `soft_ring_direction`, is hardly ever taken.
+
 A diagnosis fits amplitudes and shapes together, each within its bounds. It looks for a shape at the values of `grid=(...)` first (without:
 start, a third and three times of it; quarters of a turn for an angle that may go all round) and goes on from the best of them. A number that
 measurements cannot show, or that is known, says `held=True`: it stays at its start, and every answer says so. `rvwear effects --check` has

@@ -1,8 +1,12 @@
 """Unit, start and bounds of an effect's parameters as people read them."""
 
-from discrepancy.problem import is_direction
+import math
+
 from discrepancy.scales import Scale, of_variable
 from fmu_src.effect import EffectParameter
+
+# Bounds so far apart [rad] leave no direction out; they may be written with few digits.
+ANY = 2.0 * math.pi - 0.01
 
 
 def scale_of(p: EffectParameter) -> Scale:
@@ -16,5 +20,10 @@ def range_of(p: EffectParameter) -> tuple[str, str, str]:
     if v.choices:
         return "", v.choices[int(v.start)], ", ".join(v.choices)
     start, low, high = (scale.number(value) + 0.0 for value in (float(v.start), v.minimum, v.maximum))
-    bounds = "any" if is_direction(v.unit, v.minimum, v.maximum) else f"{low:.4g} to {high:.4g}"
-    return "" if scale.unit == "1" else scale.unit, f"{start:.4g}", bounds
+    return "" if scale.unit == "1" else scale.unit, f"{start:.4g}", f"{low:.4g} to {high:.4g}{all_round(p)}"
+
+
+def all_round(p: EffectParameter) -> str:
+    """What stands behind the bounds of a direction that may be any."""
+    v = p.variable
+    return ", all round" if p.kind == "shape" and v.unit == "rad" and v.maximum - v.minimum >= ANY else ""
