@@ -443,10 +443,10 @@ def after(r):
 
 def test_bounds_of_a_direction_are_told_alike_by_the_check_and_the_list():
     turn = shape("side", "rad", "where", 0.5, -3.15, 3.15, "assumed")
-    assert use_of(turn).startswith("shape, fitted within -3.15 to 3.15 rad, all round, from ") and range_of(turn) == ("deg", "28.65", "-180.5 to 180.5, all round")
+    assert use_of(turn).startswith("shape, fitted to any direction, from ") and range_of(turn) == ("deg", "28.65", "any")
     # Neither a direction in a quarter nor the width of a pit may be any.
     part = shape("width", "rad", "how wide", 0.1, 0.005, 2.0, "assumed", held=True)
-    assert range_of(part)[2] == "0.2865 to 114.6" and "all round" not in use_of(shape("part", "rad", "where", 0.7, 0.0, 1.571, "assumed"))
+    assert range_of(part)[2] == "0.2865 to 114.6" and "any" not in use_of(shape("part", "rad", "where", 0.7, 0.0, 1.571, "assumed"))
 
 
 def test_check_says_of_every_parameter_its_units_and_what_a_diagnosis_does_with_it(tmp_path, capsys):

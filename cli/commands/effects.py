@@ -115,7 +115,7 @@ def units_of(p: "EffectParameter") -> str:
 
 def use_of(p: "EffectParameter") -> str:
     """Whether a diagnosis fits a parameter, within which bounds, and from where."""
-    from discrepancy.catalogue.ranges import all_round
+    from discrepancy.catalogue.ranges import goes_all_round
 
     v = p.variable
     unit = "" if v.unit == "1" else f" {v.unit}"
@@ -124,7 +124,8 @@ def use_of(p: "EffectParameter") -> str:
     if p.is_held:
         return f"shape, held at {float(v.start):g}{unit}, not fitted: held=True"
     grid = f", from {', '.join(f'{value:g}' for value in p.grid)}" if p.kind == "shape" else ""
-    return f"{p.kind}, fitted within {v.minimum:g} to {v.maximum:g}{unit}{all_round(p)}{grid}"
+    bounds = "to any direction" if goes_all_round(p) else f"within {v.minimum:g} to {v.maximum:g}{unit}"
+    return f"{p.kind}, fitted {bounds}{grid}"
 
 
 def tried(file: Path) -> "list[Finding]":

@@ -20,10 +20,10 @@ def range_of(p: EffectParameter) -> tuple[str, str, str]:
     if v.choices:
         return "", v.choices[int(v.start)], ", ".join(v.choices)
     start, low, high = (scale.number(value) + 0.0 for value in (float(v.start), v.minimum, v.maximum))
-    return "" if scale.unit == "1" else scale.unit, f"{start:.4g}", f"{low:.4g} to {high:.4g}{all_round(p)}"
+    return "" if scale.unit == "1" else scale.unit, f"{start:.4g}", "any" if goes_all_round(p) else f"{low:.4g} to {high:.4g}"
 
 
-def all_round(p: EffectParameter) -> str:
-    """What stands behind the bounds of a direction that may be any."""
+def goes_all_round(p: EffectParameter) -> bool:
+    """Whether bounds leave no direction out."""
     v = p.variable
-    return ", all round" if p.kind == "shape" and v.unit == "rad" and v.maximum - v.minimum >= ANY else ""
+    return p.kind == "shape" and v.unit == "rad" and v.maximum - v.minimum >= ANY
