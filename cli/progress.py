@@ -7,13 +7,15 @@ import time
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fmu_src.progress import Listener, Task
+from fmu_src.progress import Listener, Task, left_in_all
 
 if TYPE_CHECKING:
     from fmu_src.durations import Durations
 
 # What is over sooner is not spoken of in a pipe, no line follows another sooner, none of the same task [s], and the longer that takes the rarer they get.
 SOON, PAUSE, SAME, GROWTH = 0.7, 3.0, 10.0, 0.4
+# What is foreseen to take less in all [s] gets no line: it is over when that is read.
+SHORT = 2.0
 
 
 def new_screen(words: list[str]) -> Listener:
@@ -93,7 +95,7 @@ class Lines:
                 task, now = self.tasks[-1], time.monotonic()
                 if self.is_due(task, now):
                     self.spoken[task] = self.last = now
-                    whole = next((outer.span for outer in self.tasks[:-1] if outer.span), "")
+                    whole = left_in_all(self.tasks[:-1])
                     print(f"rvwear: {task.sentence()}{f'; in all {whole} left' if whole else ''}", file=sys.stderr, flush=True)
                 self.changed.wait(0.2)
 
@@ -101,5 +103,7 @@ class Lines:
         """Whether a line of the innermost task is to be printed."""
         if task in self.spoken:
             return now - self.spoken[task] >= max(SAME, GROWTH * task.passed)
+        if task.left is not None and task.passed + task.left < SHORT:
+            return False
         # Between two of its parts a task is the innermost for a moment, which is no news.
         return task.passed > SOON and now - self.last >= (SAME if task in self.outer else PAUSE)

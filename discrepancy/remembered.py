@@ -9,6 +9,7 @@ import hashlib
 import os
 import pickle
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
 from functools import cache
@@ -49,8 +50,8 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
         begun = place.with_suffix(".begun")
         doctor = interrupted(file, campaign, settings, jobs)
         try:
-            # The rest says nothing of how long the next one takes.
-            with task(WHOLE if doctor is None else "the rest of the diagnosis"):
+            # The rest says nothing of how long the next one takes, nor the last one of the rest.
+            with task(WHOLE, whole=True) if doctor is None else task("the rest of the diagnosis"):
                 answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
         except AnswerSoFar as stop:
             write(begun, stop.answer.doctor)
@@ -58,6 +59,15 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
         write(place, answer)
         begun.unlink(missing_ok=True)
     return answer
+
+
+@contextlib.contextmanager
+def with_profiles(answer: Answer, file: ModelFile, campaign: Campaign, settings: Settings = Settings()) -> Iterator[None]:
+    """What is computed to draw an answer that is kept is kept with it: when that is found again, drawing takes no computing either."""
+    known = len(answer.profiles)
+    yield
+    if len(answer.profiles) > known and (place := place_of(file, campaign, settings)).is_file():
+        write(place, answer)
 
 
 def found_again(answer: Answer) -> str:

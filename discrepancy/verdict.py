@@ -20,6 +20,7 @@ from discrepancy.hidden_by_position import hidden_by_position
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.profile import Profile
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.locked_zeros import zero_texts
@@ -42,8 +43,8 @@ from fmu_src.threads import sharing_no_matrices
 @dataclass(frozen=True)
 class Answer:
     """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
-    ``made`` is when it was made [s since 1970]: one that is kept is found again later.  ``untold``: from which of two things what is named, or
-    stands in the model file, comes."""
+    ``made`` is when it was made [s since 1970]: one that is kept is found again later; ``profiles`` of fits by their name, once a page has drawn
+    them; ``untold``: from which of two things what is named, or stands in the model file, comes."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -57,6 +58,7 @@ class Answer:
     doctor: Diagnostician = field(repr=False)
     made: float = field(default_factory=time.time, compare=False)
     untold: list[str] = field(default_factory=list)
+    profiles: dict[str, list[Profile]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def left_over(self) -> str:

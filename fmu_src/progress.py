@@ -5,7 +5,7 @@ turning`` and ``turning.advance()`` at each step, and need not know who looks.
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -34,6 +34,8 @@ class Task:
     broken: bool = False
     # Seconds from its beginning between which it is to end, where that can be foretold.
     foretold: tuple[float, float] | None = None
+    # Whether it is what is waited for: what is left of it is told beside its steps.
+    whole: bool = False
 
     def __post_init__(self) -> None:
         self.name = self.what
@@ -99,6 +101,14 @@ def between(low: float, high: float) -> str:
     return f"about {last} {unit}" if first == last else f"{first} to {last} {unit}" if first else f"up to {last} {unit}"
 
 
+def left_in_all(outer: Sequence[Task]) -> str:
+    """What is left of the whole, of tasks that others are part of, in words; empty where that is not known."""
+    if foretold := next((task.span for task in outer if task.span), ""):
+        return foretold
+    left = next((task.left for task in outer if task.whole), None)
+    return "" if left is None else f"about {duration(left)}"
+
+
 class Listener(Protocol):
     def begin(self, task: Task) -> None: ...
 
@@ -128,9 +138,9 @@ def told_to_nobody() -> None:
 
 
 @contextmanager
-def task(what: str, total: int | None = None, about: float | None = None) -> Iterator[Task]:
+def task(what: str, total: int | None = None, about: float | None = None, whole: bool = False) -> Iterator[Task]:
     """Something that may take a while."""
-    begun = Task(what, total, about)
+    begun = Task(what, total, about, whole=whole)
     heard = list(_listeners)
     _running.append(begun)
     for listener in heard:

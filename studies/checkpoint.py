@@ -19,7 +19,7 @@ REMEDY = "start anew with --restart"
 # Bytes that are read of a checkpoint (assumed: far beyond those of the longest life).
 MOST = 2_000_000_000
 # Fields of Life that are plain numbers or lists of them.
-PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "coarse", "error_before", "over_turn", "drifted")
+PLAIN = ("hours", "figures", "errors", "cycles", "jumps", "passes", "coarse", "error_before", "over_turn", "drifted")
 
 
 def save_checkpoint(path: Path, life: Life, saved: dict[str, Any], inputs: dict[str, Any]) -> None:

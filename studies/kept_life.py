@@ -22,6 +22,7 @@ from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
+from studies.passes import pass_of
 from studies.solve import require_positions
 
 
@@ -75,17 +76,21 @@ def belongs_to(checkpoint: Path, inputs: dict[str, Any]) -> bool:
     return True
 
 
-def live_to(path: Path, wanted: WantedLife, resume: bool, progress: Callable[[Life], None]) -> xr.Dataset:
+def live_to(path: Path, wanted: WantedLife, resume: bool, progress: Callable[[Life], None], ended: Callable[[Life], None] | None = None) -> xr.Dataset:
     """The life from its beginning, or from its checkpoint, to the result at ``path``; ``Paused`` at Ctrl-C."""
     checkpoint = checkpoint_of(path)
-    dataset = whole_life(wanted, progress, checkpoint, resume)
+    dataset = whole_life(wanted, progress, checkpoint, resume, ended)
     netcdf.write(dataset, path)
     checkpoint.unlink(missing_ok=True)
     return dataset
 
 
-def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint: Path | None = None, resume: bool = False) -> xr.Dataset:
-    """The life; ``progress`` is told after each jump.  With a ``checkpoint`` it is kept there, and gone on with from there to ``resume``."""
+def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint: Path | None = None, resume: bool = False,
+               ended: Callable[[Life], None] | None = None) -> xr.Dataset:  # fmt: skip
+    """The life; ``progress`` is told after each jump, ``ended`` what the result has.
+
+    With a ``checkpoint`` it is kept there, and gone on with from there to ``resume``.
+    """
     with task("loading the units"):
         # In this process many steps go into one compiled call.
         pair = make_pair(wanted.reducer, wanted.settings, wanted.fmus, wanted.scheme, wanted.positions, wanted.duty, Master if wanted.fmus else CoupledMaster)
@@ -104,13 +109,18 @@ def whole_life(wanted: WantedLife, progress: Callable[[Life], None], checkpoint:
         with task("hours of life", total=round(wanted.life.hours)) as hours:
 
             def show(state: Life) -> None:
-                # It begins again at 0 h with every run.
-                hours.what = f"hours since new, {'again ' if state.coarse else ''}in {state.jumps} jump{'s' * (state.jumps > 1)}"
-                hours.done = round(state.hours[-1])
+                # Before the count goes on: whoever sees it looks for what it is of.
                 progress(state)
+                # It begins again at 0 h with every run.
+                hours.what = f"hours since new, {pass_of(state)}"
+                hours.done = round(state.hours[-1])
 
             live(pair, lived, show, keep)
-        return results.life_dataset(pair, lived, [first_orders, results.order_spectrum(pair, lived.hours[-1])], wanted.inputs)
+            last_orders = results.order_spectrum(pair, lived.hours[-1])
+            lived.over_turn += [[hour, swing] for hour, swing in results.swings(last_orders).items()]
+            if ended:
+                ended(lived)
+        return results.life_dataset(pair, lived, [first_orders, last_orders], wanted.inputs)
     except KeyboardInterrupt as interruption:
         raise Paused(lived.hours[-1] if lived.hours else 0.0) from interruption
     finally:

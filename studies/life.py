@@ -95,9 +95,9 @@ class LifeSettings:
 class Life:
     """What a life run has found so far, one entry per recorded hour of the present run.
 
-    ``start`` is the state of the new pair; ``coarse`` holds the watched depths [um] of the run before, whose error
-    was ``error_before``.  ``over_turn`` has rows of hours and the transmission error's peak to peak over a turn of the
-    output [arcsec]: of each jump but the first, at the middle of its hours, and at 0 h, if that is known; ``drifted``: hours
+    ``start`` is the state of the new pair; ``passes``: runs through the hours that were begun; ``coarse`` holds the watched depths [um]
+    of the run before, whose error was ``error_before``.  ``over_turn`` has rows of hours and the transmission error's peak to peak over a turn of the
+    output [arcsec]: of each jump but the first, at the middle of its hours, and at 0 h and at the end, where that is known; ``drifted``: hours
     from and to, and how far the output went on in the last jump [rad], if there was one.
     """
 
@@ -109,6 +109,7 @@ class Life:
     errors: list[float] = field(default_factory=list)
     cycles: int = 0
     jumps: int = 0
+    passes: int = 0
     coarse: list[list[float]] = field(default_factory=list)
     error_before: float = math.inf
     start: dict[str, Any] | None = None
@@ -331,6 +332,7 @@ def begin(pair: Pair, life: Life, jumps: int, keep: Callable[[Life], None]) -> N
     pair.master.restore(life.start)
     life.forget()
     life.jumps = jumps
+    life.passes += 1
     life.note(pair)
     keep(life)
 

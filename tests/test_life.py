@@ -12,9 +12,11 @@ from orchestrator.settings import Setting
 from studies.checkpoint import load_checkpoint, save_checkpoint
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
+from studies.figure_units import OVER_TURN
 from studies.kept_life import WantedLife, whole_life
 from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
 from studies.pair import make_pair
+from studies.passes import before_of, pass_of
 
 # A sixth of the usual positions per turn, and no equilibria between them: the jumps, not the angles, are under test.
 COARSE, UNDIVIDED = 12, Setting("largest_crank_step", 0.6)
@@ -46,11 +48,16 @@ def test_hours_start_at_zero_and_end_where_asked(short):
 
 def test_progress_says_that_hours_count_from_new_and_which_run_it_is(rv20e):
     """"hours of life: 525 of 10000" of the second run were read as hours of that run."""
-    tasks, heard = [], []
+    tasks, heard, ended = [], [], []
+    wanted = WantedLife(rv20e, [UNDIVIDED], LifeSettings(hours=100.0, tolerance=0.1), COARSE)
     with told_to(SimpleNamespace(begin=tasks.append, end=lambda task: None, say=lambda text: None)):
-        whole_life(WantedLife(rv20e, [UNDIVIDED], LifeSettings(hours=100.0, tolerance=0.1), COARSE), lambda state: heard.append(tasks[-1].sentence()))
-    assert heard[0].startswith("hours since new, in 1 jump: 100 of 100")
-    assert any(text.startswith("hours since new, again in 2 jumps: 25 of 100") for text in heard)
+        result = whole_life(wanted, lambda state: heard.append(tasks[-1].sentence()), ended=ended.append)
+    # The count goes on once there is what it is of.
+    assert heard[1].startswith("hours since new, pass 1 in 1 jump: 100 of 100")
+    assert heard[2].startswith("hours since new, pass 2 in 2 jumps: 25 of 100")
+    # The last that is told of a life that runs is what its result has; of the middle of the last jump it was.
+    (life,) = ended
+    assert life.over_turn_at_hours() == result[OVER_TURN].values.tolist() and life.over_turn[-1][0] == life.hours[-1] and life.passes >= 2
 
 
 def test_wear_only_grows(short):
@@ -212,6 +219,13 @@ def test_peak_of_a_rippled_hump_lies_at_its_middle():
     depth, place = peak_of_circle((hump * ripple)[None, :])
     assert place == pytest.approx(1.234, abs=np.radians(0.3))
     assert depth == pytest.approx(1.0, abs=0.003)
+
+
+def test_the_pass_before_is_known_from_the_life_alone():
+    """A page that looks after a pause has not seen it."""
+    first, finer, worn = (Life(LifeSettings(90.0), jumps=n, passes=k, coarse=c) for n, k, c in ((3, 1, []), (6, 2, [[1.0]] * 4), (12, 3, [])))
+    assert [before_of(life) for life in (first, finer, worn)] == [0, 3, 6]
+    assert [pass_of(life) for life in (first, worn)] == ["pass 1 in 3 jumps", "pass 3 in 12 jumps"]
 
 
 def test_a_life_that_begins_again_says_why():

@@ -231,6 +231,36 @@ def test_of_an_effect_that_stands_alone_the_nearest_rival_and_what_confirms_it_a
     assert "confirmed" not in proposal_for(diagnosed, blind).verdict and "nearest to it comes " in proposal_for(diagnosed, blind).verdict
 
 
+def test_what_is_computed_to_draw_a_diagnosis_is_kept_with_it(file, wide, diagnosed, tmp_path, monkeypatch):
+    """Drawing one that was found again took up to 12 s: profiles of its parameters were computed anew."""
+    from discrepancy import remembered
+    from discrepancy.page.write import page_of
+
+    monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
+    monkeypatch.setattr(remembered, "diagnose", lambda *arguments, **options: replace(diagnosed, profiles={}))
+    heard = []
+    with told_to(SimpleNamespace(begin=heard.append, end=lambda task: None, say=lambda text: None)):
+        first = remembered.diagnosed(file, wide)
+        with remembered.with_profiles(first, file, wide):
+            drawn = page_of(first)
+    assert "looking at how well each parameter is known" in [task.name for task in heard] and first.profiles
+
+    def anew(*given):
+        raise AssertionError("computed anew")
+
+    monkeypatch.setattr("discrepancy.page.profiles.profiles", anew)
+    again = remembered.diagnosed(file, wide)
+    pictures = [[f.data for s in page.sections if s.id == "profiles" for f in s.figures] for page in (drawn, page_of(again))]
+    assert pictures[0] and pictures[0] == pictures[1]
+    # One that was stopped is not kept for the whole.
+    (kept,) = tmp_path.iterdir()
+    kept.unlink()
+    again.profiles.clear()
+    with remembered.with_profiles(again, file, wide):
+        again.profiles["any"] = []
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, monkeypatch, capsys):
     from discrepancy import remembered
 

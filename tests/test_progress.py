@@ -10,7 +10,7 @@ import pytest
 from cli import progress as shown
 from cli.bars import Bars
 from fmu_src.durations import Durations
-from fmu_src.progress import Task, say, task, told_to
+from fmu_src.progress import Task, left_in_all, say, task, told_to
 
 
 @pytest.mark.parametrize("given, begun, text", [
@@ -31,6 +31,7 @@ def test_a_task_is_told_in_a_sentence(given, begun, text):
 
 def test_in_a_pipe_the_innermost_task_is_told_if_it_takes_long(monkeypatch, capsys):
     monkeypatch.setattr(shown, "SOON", 0.05)
+    monkeypatch.setattr(shown, "SHORT", 0.05)
     with told_to(shown.Lines()), task("outer"), task("inner", total=4) as inner:
         inner.advance()
         time.sleep(0.4)
@@ -44,11 +45,37 @@ def test_in_a_pipe_the_innermost_task_is_told_if_it_takes_long(monkeypatch, caps
 
 def test_in_a_pipe_a_step_is_told_with_what_is_left_of_the_whole(monkeypatch, capsys):
     monkeypatch.setattr(shown, "SOON", 0.05)
+    monkeypatch.setattr(shown, "SHORT", 0.05)
     with told_to(shown.Lines()), task("outer") as whole, task("inner", total=4) as inner:
         whole.foretell(90.0, 350.0)
         inner.advance()
         time.sleep(0.4)
     assert capsys.readouterr().err.splitlines() == ["rvwear: inner: 1 of 4, about 1 s left; in all 1 to 6 min left"]
+
+
+@pytest.mark.parametrize("given, foretold, passed, text", [
+    ({}, None, 5.0, ""), ({"before": 60.0}, None, 5.0, ""), ({"before": 60.0, "whole": True}, None, 20.0, "about 40 s"),
+    ({"whole": True}, (90.0, 350.0), 0.0, "1 to 6 min"), ({"before": 200.0, "whole": True}, (90.0, 350.0), 20.0, "about 3 min"),
+    ({"before": 60.0, "whole": True}, None, 70.0, ""),
+])  # fmt: skip
+def test_what_is_left_in_all_is_told_as_foretold_or_as_the_last_time(given, foretold, passed, text):
+    """Where the last time said it closer than what was foretold, a step's "about 1 s left" stood alone."""
+    whole = Task("the whole", **given)
+    if foretold:
+        whole.foretell(*foretold)
+    whole.begun -= passed
+    assert left_in_all([Task("around it", before=5.0), whole, Task("a part", total=4, done=1)]) == text
+
+
+def test_in_a_pipe_what_is_over_when_it_is_read_gets_no_line(monkeypatch):
+    """"placing the roller cages, about 1 s left" came again and again in a diagnosis of 3 minutes."""
+    lines, now = shown.Lines(), 1000.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    quick, slow = Task("placing", total=4, done=3, begun=now - 1.0), Task("placing", total=4, done=1, begun=now - 1.0)
+    assert not lines.is_due(quick, now) and lines.is_due(slow, now) and lines.is_due(Task("fitting", begun=now - 1.0), now)
+    # It took longer than it was foreseen to.
+    now += 1.0
+    assert lines.is_due(quick, now)
 
 
 def test_in_a_pipe_a_task_is_told_once_and_then_every_ten_seconds_at_most(monkeypatch):

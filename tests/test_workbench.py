@@ -343,7 +343,7 @@ def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypat
     monkeypatch.setattr(steps, "inputs", lambda *_: (None, None))
     monkeypatch.setattr(steps, "report", lambda *_: None)
     monkeypatch.setattr(steps, "answer_data", lambda _: {})
-    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made))
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made, profiles={}))
     for found in (made, None):
         steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
         assert json.loads((tmp_path / "result.json").read_text())["found"] == found
@@ -701,6 +701,26 @@ def test_a_life_says_which_stiffness_it_shows():
     shown = curves([0.0], [{name: 1.0 for _, _, lines in PANES for name, _ in lines}])
     assert "running, between half and all of the torque; with the input held" in shown["how"]
     assert [line["name"] for line in shown["panes"][-1]["lines"]] == ["running stiffness"]
+
+
+def test_a_life_that_runs_says_which_pass_it_is_and_why_in_the_words_of_the_terminal():
+    """Hours went from 10,000 back to 69 without a word, and the last of them were others than those of the result."""
+    from cli.show.life import telling
+    from studies.life import Life, LifeSettings
+    from workbench.life_step import LATEST, PANES, so_far
+
+    figures = {name: 1.0 for _, _, lines in PANES for name, _ in lines}
+    begun = Life(LifeSettings(90.0), [0.0, 90.0], [figures] * 2, jumps=3, passes=1)
+    again = Life(LifeSettings(90.0), [0.0, 2.5], [figures] * 2, jumps=6, passes=2, coarse=[[1.0]] * 4, over_turn=[[0.0, 6.0], [1.0, 7.0]])
+    said = []
+    tell = telling(said.append)
+    for life in (begun, again):
+        tell(life)
+    first, second = (so_far(life, False) for life in (begun, again))
+    assert (first["pass"], first["why"], second["pass"]) == (1, "", 2) and second["why"] in said and second["how"].endswith(LATEST)
+    again.over_turn.append([2.5, 8.0])
+    last = so_far(again, True)
+    assert last["ended"] and last["panes"][2]["lines"][0]["values"][-1] == 8.0 and LATEST not in last["how"]
 
 
 def test_a_life_of_a_model_file_is_called_after_it_and_its_command_names_it(tmp_path, monkeypatch):

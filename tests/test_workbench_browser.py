@@ -850,9 +850,11 @@ def test_a_life_of_another_model_says_so(bench):
     assert "they have changed since" in said[2][0]
 
 
-def test_a_life_that_runs_says_what_its_hours_count_from_and_which_run_it_is(bench):
-    """"525 of 10,000 h" of the second run, or after a pause, might have been hours of that run alone."""
-    page, live = bench.page, {"now": {"model": "RV20E-121", "hours": [0, 525], "until": 10_000, "jumps": 1, "again": False, "panes": []}, "before": {}}
+def test_a_life_that_runs_says_what_its_hours_count_from_and_which_pass_it_is_and_why(bench):
+    """"525 of 10,000 h" of the second pass, or after a pause, might have been hours of that pass alone; they went back without a word of why."""
+    panes = [{"title": "depth", "unit": "µm", "lines": [{"name": "flank", "values": [0, 2.5]}]}]
+    now = {"model": "RV20E-121", "hours": [0, 525], "until": 10_000, "jumps": 1, "pass": 1, "why": "", "ended": False, "panes": panes}
+    page, live = bench.page, {"now": now, "before": {}}
     page.goto(bench.address)
     page.route("**/results/life/live", lambda route: route.fulfill(json=live))
     show = """async (state) => {
@@ -861,19 +863,75 @@ def test_a_life_that_runs_says_what_its_hours_count_from_and_which_run_it_is(ben
       place.replaceChildren();
       show(place, { state: { jobs: { life: job } }, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '' });
       for (let k = 0; k < 100 && !place.querySelector('h1'); k++) await new Promise((done) => setTimeout(done, 50));
-      return [place.querySelector('h1').textContent, place.querySelector('#which-run').textContent, place.querySelector('.note')?.textContent ?? ''];
+      return ['h1', '.lead', '#which-pass', '.note'].map((part) => place.querySelector(part)?.textContent ?? '');
     }"""
-    title = "RV20E-121: 525 of 10,000 operating hours since new"
-    first = "First run through these hours, in 1 jump; then from new again in more of them, until two runs agree."
-    assert page.evaluate(show, "running") == [title, first, ""]
-    live["now"] |= {"jumps": 6, "again": True}
-    live["before"] = {"jumps": 3, "hours": [0], "panes": []}
-    second = "Another run through the same hours, from new, in 6 jumps; dashed: the run before, in 3. How far two runs differ is their error."
-    assert page.evaluate(show, "running") == [title, second, ""]
-    # Gone on with after a pause nobody has the curves of the run before.
+    title = "RV20E-121: 525 of 10,000 operating hours since new, pass 1"
+    first = "Pass 1, in 1 jump; then again from 0 h in more of them, until two passes agree. Figures and solid curves are of this pass, as rough as its jumps."
+    assert page.evaluate(show, "running") == [title, "pass 1, in 1 jump: flank 2.50 µm", first, ""]
+    now |= {"jumps": 6, "pass": 2, "why": "again from 0 h in 6 jumps, each a part of one of the 3 before: the difference is their error"}
+    live["before"] = {"jumps": 3, "pass": 1, "hours": [0, 1], "panes": panes}
+    title, second = title.replace("pass 1", "pass 2"), f"Pass 2: {now['why']}. Figures and solid curves are of this pass and its 6 jumps; dashed: pass 1, in 3."
+    assert page.evaluate(show, "running") == [title, "pass 2, in 6 jumps: flank 2.50 µm", second, ""]
+    # Gone on with after a pause nobody has the curves of the pass before.
     live["before"] = {}
-    paused = "Paused at 525 of 10,000 operating hours since new: the life goes on from its last jump, as long as hours, torque and model stay."
-    assert page.evaluate(show, "stopped") == [title, second.replace("; dashed: the run before, in 3", ""), paused]
+    paused = "Paused at 525 of 10,000 operating hours since new, pass 2: the life goes on from its last jump, as long as hours, torque and model stay."
+    assert page.evaluate(show, "stopped")[2:] == [second.replace("; dashed: pass 1, in 3", ""), paused]
+    now["ended"] = True
+    assert page.evaluate(show, "running")[2] == "Pass 2, in 6 jumps, is the last: the figures are those of the result, which is being written."
+
+
+def test_hours_of_a_life_are_not_set_back_by_an_answer_that_was_overtaken(bench):
+    page, held = bench.page, []
+
+    def asked(route):
+        held.append(route)
+
+    page.goto(bench.address)
+    page.route("**/results/life/live", asked)
+    page.evaluate("""async () => {
+      const { show } = await import('./static/life.js'), place = document.getElementById('view');
+      const state = { view: {}, jobs: { life: { state: 'running', given: { model: 'RV20E-121' }, tasks: [{ done: 1 }] } } };
+      place.replaceChildren();
+      const view = show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '' });
+      view.update(state);
+    }""")
+    while len(held) < 2:
+        page.wait_for_timeout(50)
+    for route, hours in zip(reversed(held), (6944, 4444)):
+        now = {"model": "m", "hours": [0, hours], "until": 10_000, "jumps": 6, "pass": 2, "why": "again", "ended": False, "panes": []}
+        route.fulfill(json={"now": now, "before": {}})
+        page.locator("h1", has_text="m: 6,944 of 10,000 operating hours since new, pass 2").wait_for()
+    page.wait_for_timeout(300)
+    assert page.locator("h1", has_text="m: 6,944 of 10,000").count() == 1
+
+
+def test_what_is_left_in_all_stands_beside_a_step_that_is_over_soon(bench):
+    """"placing the roller cages, about 1 s left" was read as the end of a diagnosis of 3 minutes."""
+    folder, far = opened(bench.folder), time.time() + 3600.0
+    task = {"what": "placing", "done": 3, "total": 4, "left": 1.0, "before": None, "span": "", "sentence": "placing: 3 of 4, about 1 s left"}
+    folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": far})
+    beat = {"state": "running", "at": far, "seconds": 3.0, "said": [], "tasks": [task], "whole": "up to 50 s"}
+    folder.remember("jobs/diagnose/beat", beat)
+    bench.page.goto(bench.address)
+    bench.page.locator("#work", has_text="placing: 3 of 4, about 1 s left; in all up to 50 s left").wait_for()
+    folder.remember("jobs/diagnose/beat", beat | {"state": "stopped", "tasks": [], "whole": ""})
+
+
+def test_what_is_off_in_times_the_noise_has_no_sign(bench):
+    """-97.9 stood there, 97.9 on the terminal and in Diagnose; which is more, measured and model say."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { keyFigures, singles } = await import('./static/look_parts.js'), place = document.getElementById('view');
+      const why = { relation: '', data: '', margin: '' };
+      const figure = { signal: 's', title: 's', condition: 'c', name: 'n', unit: 'N', measured: '1', model: '2', noise: '0.01', off: -97.9, runs: 1, repeated: false, why };
+      const run = { run: 'r', condition: 'c', held_out: false, measured: [1], predicted: [2], noise: 0.1, off: [-10] };
+      place.replaceChildren(
+        keyFigures({ result: { figures: [figure], calibrated: [] }, all: true, text: '', matches: () => true, search: () => {}, showAll: () => {} }),
+        singles({ title: 's', unit: 'N', singles: [run] }),
+      );
+      return [place.querySelector('.off').textContent, [...place.querySelectorAll('td')].at(-1).textContent];
+    }""")
+    assert told == ["97.9", "10.0"]
 
 
 def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typed_since_stays(bench):

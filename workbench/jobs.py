@@ -84,8 +84,9 @@ def status(folder: Folder, kind: str, stamps: dict[str, str] | None = None) -> d
     stamps = {} if stamps is None else stamps
     if model not in stamps:
         stamps[model] = folder.stamp(model)
-    told = {"begun": asked.get("begun"), "given": asked.get("given", {}), "tasks": beat.get("tasks", []), "said": beat.get("said", []),
-            "fault": beat.get("fault", ""), "seconds": beat.get("seconds"), "old": beat.get("stamp", "") != stamps[model]}  # fmt: skip
+    told = {"begun": asked.get("begun"), "given": asked.get("given", {}), "tasks": beat.get("tasks", []), "whole": beat.get("whole", ""),
+            "said": beat.get("said", []), "fault": beat.get("fault", ""), "seconds": beat.get("seconds"),
+            "old": beat.get("stamp", "") != stamps[model]}  # fmt: skip
     state = beat.get("state", RUNNING)
     if state == RUNNING and time.time() - max(float(beat.get("at", 0.0)), float(asked["begun"])) > SILENT and not lives(place):
         state = GONE

@@ -14,6 +14,7 @@ from workbench.told import write_json
 
 if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
+    from studies.life import Life
 
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
 PANES = (
@@ -22,6 +23,8 @@ PANES = (
     ("transmission error p-p", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
     ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
+# Until the life ends nobody goes round a turn of the output at the hour that was reached.
+LATEST = "the latest transmission error is one of earlier hours, until the life ends"
 # Of hours, and of a torque [N m].
 USUAL_HOURS, MOST = 10_000.0, 1e6
 
@@ -47,18 +50,17 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     before: dict[str, Any] = {}
     now: dict[str, Any] = {}
 
-    def tell(state: Life) -> None:
+    def tell(state: Life, ended: bool = False) -> None:
         nonlocal before, now
-        if now and now["jumps"] != state.jumps:
+        if now and now["pass"] != state.passes:
             before = now
-        figures = [known | {OVER_TURN: swing} for known, swing in zip(state.figures, state.over_turn_at_hours())]
-        now = curves(state.hours, figures) | {"jumps": state.jumps, "again": bool(state.coarse), "model": str(given["model"]), "until": hours}
+        now = so_far(state, ended) | {"model": str(given["model"]), "until": hours}
         write_json(place / "live.json", {"now": now, "before": before})
 
     with held(path):
         checkpoint = checkpoint_of(path)
         try:
-            dataset = live_to(path, wanted, checkpoint.exists() and belongs_to(checkpoint, wanted.inputs), tell)
+            dataset = live_to(path, wanted, checkpoint.exists() and belongs_to(checkpoint, wanted.inputs), tell, lambda state: tell(state, True))
         except Paused:
             return True
     write_report(dataset, place / "report.html")
@@ -68,6 +70,18 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
         "title": dataset.attrs["title"], "command": command(file, hours, texts, path),
     })  # fmt: skip
     return False
+
+
+def so_far(state: "Life", ended: bool) -> dict[str, Any]:
+    """Curves of the present pass, which it is and why; ``ended``: as the result has them."""
+    from studies.passes import again_line, before_of
+
+    figures = [known | {OVER_TURN: swing} for known, swing in zip(state.figures, state.over_turn_at_hours())]
+    drawn = curves(state.hours, figures)
+    if not ended:
+        drawn["how"] += f"; {LATEST}"
+    why = again_line(state, before_of(state)) if state.passes > 1 else ""
+    return drawn | {"jumps": state.jumps, "pass": state.passes, "why": why, "ended": ended}
 
 
 def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any]:

@@ -78,7 +78,7 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
 
 def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970]."""
-    from discrepancy.remembered import diagnosed
+    from discrepancy.remembered import diagnosed, with_profiles
     from discrepancy.verdict import AnswerSoFar
 
     stopped, began = False, time.time()
@@ -90,7 +90,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
             answer, stopped = stop.answer, True
     found = answer.made if answer.made < began else None
     with task(PAGE_OF_FOUND if found else "drawing the page"):
-        report(answer, place)
+        with with_profiles(answer, file, campaign):
+            report(answer, place)
         about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found}
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped

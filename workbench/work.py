@@ -11,7 +11,7 @@ from types import FrameType
 
 from fmu_src.durations import Durations
 from fmu_src.faults import InputFault, RunFault
-from fmu_src.progress import Task, told_to
+from fmu_src.progress import Task, left_in_all, told_to
 from workbench import jobs
 from workbench.folder import Folder
 from workbench.page_words import on_page
@@ -67,8 +67,8 @@ class Teller:
     def write(self, state: str, fault: str = "") -> None:
         tasks = [{"what": in_words(t.what), "done": t.done, "total": t.total, "left": t.left, "before": t.before, "span": t.span,
                   "sentence": in_words(t.sentence())} for t in self.tasks[-MOST_TASKS:]]  # fmt: skip
-        beat = {"state": state, "at": time.time(), "seconds": time.monotonic() - self.begun, "tasks": tasks, "said": self.said, "fault": fault,
-                "stamp": self.stamp}  # fmt: skip
+        beat = {"state": state, "at": time.time(), "seconds": time.monotonic() - self.begun, "tasks": tasks, "whole": left_in_all(self.tasks[:-1]),
+                "said": self.said, "fault": fault, "stamp": self.stamp}  # fmt: skip
         try:
             self.folder.remember(f"jobs/{self.kind}/beat", beat)
         except (InputFault, RunFault) as problem:

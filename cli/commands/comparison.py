@@ -3,6 +3,7 @@
 import argparse
 import shlex
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -151,7 +152,7 @@ def run_localise(options: argparse.Namespace) -> int:
 def run_diagnose(options: argparse.Namespace) -> int:
     """Exit code 130 if it was interrupted, 143 if terminated: then it shows what was known by then."""
     from discrepancy.draft.choose import written_to
-    from discrepancy.remembered import diagnosed
+    from discrepancy.remembered import diagnosed, with_profiles
     from discrepancy.verdict import AnswerSoFar, diagnose
 
     check_exports(options)
@@ -165,7 +166,8 @@ def run_diagnose(options: argparse.Namespace) -> int:
         export(options, stop.answer)
         return code
     draft = written_to(answer, Path(options.draft)) if options.draft else None
-    tell(options, answer, draft=str(draft) if draft else None)
+    with nullcontext() if fmus else with_profiles(answer, file, campaign):
+        tell(options, answer, draft=str(draft) if draft else None)
     if not options.json:
         if line := line_after(options, answer):
             print(f"\nnext  {line}")

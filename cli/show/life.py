@@ -7,6 +7,7 @@ import xarray as xr
 from cli.screen import BETWEEN, WIDTH, console, dense
 from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from studies.life import Life
+from studies.passes import again_line
 
 
 def jump_line(life: Life) -> str:
@@ -16,13 +17,6 @@ def jump_line(life: Life) -> str:
         f"{life.hours[-1]:8.0f} h  raceways {f['inner_raceway_um']:.3f} / {f['outer_raceway_um']:.3f} um  "
         f"flank {f['disc_flank_um']:.3f} um  pin {f['pin_um']:.3f} um  jump {len(life.hours) - 1} of {life.jumps}"
     )
-
-
-def again_line(life: Life, before: int) -> str:
-    """Why it begins again after ``before`` jumps."""
-    if not life.coarse:
-        return f"too much wear in one jump of {before}: again from 0 h, in {life.jumps} jumps"
-    return f"again from 0 h in {life.jumps} jumps, each a part of one of the {before} before: the difference is their error"
 
 
 def telling(say: Callable[[str], None]) -> Callable[[Life], None]:

@@ -10,6 +10,7 @@ from discrepancy.page.amounts import effect_title, pretty
 from discrepancy.scales import of_parameter
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
+from fmu_src.progress import task
 from pages import look
 from pages.content import Section
 
@@ -21,7 +22,11 @@ HIGHEST = 18.0
 def section(answer: Answer) -> Section:
     """Of the best fit: all effects that are named together, or the best of those that are alternatives."""
     space, best = answer.diagnosis.fits.space, answer.diagnosis.fits.members[0]
-    figures = [figure(k, p, told_name(p.name, tables_of(answer.model))) for k, p in enumerate(profiles(space, best))]
+    # They take most of the time of a page.
+    if best.name not in answer.profiles:
+        with task("looking at how well each parameter is known"):
+            answer.profiles[best.name] = profiles(space, best)
+    figures = [figure(k, p, told_name(p.name, tables_of(answer.model))) for k, p in enumerate(answer.profiles[best.name])]
     lead = (
         f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
         " follow. Grey is the parabola of the interval; a line that leaves it, flattens or has a second valley says that the interval is too simple."

@@ -168,12 +168,14 @@ function showWork(jobs) {
     task = [...job.tasks].reverse().find((t) => t.total) ?? job.tasks.at(-1),
     inner = job.tasks.at(-1);
   const bar = h("progress", task?.total ? { max: task.total, value: task.done, "aria-label": task.what } : { "aria-label": "at work" });
-  const said = job.said.at(-1);
+  const said = job.said.at(-1),
+    // Of a step alone "about 1 s left" would be read as the end.
+    doing = inner ? `${inner.sentence}${job.whole ? `; in all ${job.whole} left` : ""}` : "starting";
   clear(
     work,
     h("b", {}, WORK[kind]),
     bar,
-    h("span", { class: "doing", title: [inner?.sentence, said && `so far: ${said}`].filter(Boolean).join("\n") }, inner?.sentence ?? "starting", said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h("span", { class: "doing", title: [doing, said && `so far: ${said}`].filter(Boolean).join("\n") }, doing, said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
   );

@@ -14,15 +14,18 @@ const USUAL_HOURS = "10000";
 // The report in the colours of the page around it: they may be others than the screen's.
 const embedded = () => `results/life/report?colours=${document.documentElement.classList.contains("dark") ? "dark" : "light"}`;
 
-// Hours go back to 0 when a life is run through again; after a pause they go on.
-function whichRun(now, before) {
-  const jumps = `${now.jumps} jump${now.jumps === 1 ? "" : "s"}`;
-  if (!now.again && !before?.jumps) return `First run through these hours, in ${jumps}; then from new again in more of them, until two runs agree.`;
-  const dashed = before?.jumps ? `; dashed: the run before, in ${before.jumps}` : "";
-  return `Another run through the same hours, from new, in ${jumps}${dashed}. How far two runs differ is their error.`;
+const jumps = (n) => `${n} jump${n === 1 ? "" : "s"}`;
+
+// Hours go back to 0 with every pass through the life; after a pause they go on.  Why there is one more is said in the words of the terminal.
+function whichPass(now, before) {
+  if (now.ended) return `Pass ${now.pass}, in ${jumps(now.jumps)}, is the last: the figures are those of the result, which is being written.`;
+  const of = "Figures and solid curves are of this pass",
+    dashed = before?.jumps ? `; dashed: pass ${before.pass}, in ${before.jumps}` : "";
+  if (!now.why) return `Pass ${now.pass}, in ${jumps(now.jumps)}; then again from 0 h in more of them, until two passes agree. ${of}, as rough as its jumps.`;
+  return `Pass ${now.pass}: ${now.why}. ${of} and its ${jumps(now.jumps)}${dashed}.`;
 }
 
-const since = (now) => `${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} operating hours since new`;
+const since = (now) => `${Math.round(now.hours.at(-1)).toLocaleString("en")} of ${Math.round(now.until).toLocaleString("en")} operating hours since new, pass ${now.pass}`;
 
 export function show(root, context) {
   let live = null,
@@ -31,6 +34,8 @@ export function show(root, context) {
     torque = "",
     // When that began of which the fields are.
     begun = null,
+    // How often was asked for what there is.
+    asks = 0,
     plot = null,
     report = null,
     // The report is large: its box is empty for seconds.
@@ -56,11 +61,15 @@ export function show(root, context) {
   }
 
   async function load() {
-    const job = context.state?.jobs.life;
+    const job = context.state?.jobs.life,
+      ask = ++asks;
     take();
-    live = job?.state ? await get("results/life/live").catch(() => null) : null;
-    if (!live?.now) live = null;
-    result = job?.result && job.state === "done" ? await get("results/life").catch(() => null) : null;
+    const known = job?.state ? await get("results/life/live").catch(() => null) : null,
+      found = job?.result && job.state === "done" ? await get("results/life").catch(() => null) : null;
+    // An answer that was overtaken by a later one would set the hours back.
+    if (ask !== asks) return;
+    live = known?.now?.pass ? known : null;
+    result = found;
     draw();
   }
 
@@ -143,9 +152,9 @@ export function show(root, context) {
         {},
         result ? result.title : `${now.model}: ${since(now)}`,
       ),
-      h("p", { class: "lead" }, last.join(" · ")),
+      h("p", { class: "lead" }, `${result ? "" : `pass ${now.pass}, in ${jumps(now.jumps)}: `}${last.join(" · ")}`),
       h("p", { class: "quiet small" }, now.how ?? ""),
-      result ? null : h("p", { class: "quiet small", id: "which-run" }, whichRun(now, live.before)),
+      result ? null : h("p", { class: "quiet small", id: "which-pass" }, whichPass(now, live.before)),
     );
     chart.hidden = false;
     if (!plot) {

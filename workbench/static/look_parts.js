@@ -61,7 +61,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
           h(
             "span",
             { class: tone(Math.abs(f.off)), title: f.repeated ? `from ${f.runs} repetitions` : "from the noise of the samples: nothing is repeated" },
-            h("span", { class: "off" }, number(f.off, 3)),
+            h("span", { class: "off" }, number(Math.abs(f.off), 3)),
             h("span", { class: "bar", style: { width: `${Math.max(2, (46 * Math.abs(f.off)) / most)}px` } }),
           ),
           why(f.why, `${f.name} at ${f.condition}`),
@@ -156,7 +156,7 @@ export function singles(signal) {
           value,
           h("span", { class: "quiet" }, `± ${run.noise}`),
           run.predicted[i],
-          h("span", { class: tone(Math.abs(run.off[i])) }, number(run.off[i], 3)),
+          h("span", { class: tone(Math.abs(run.off[i])) }, number(Math.abs(run.off[i]), 3)),
         ]),
       ),
       [2, 3, 4, 5],
