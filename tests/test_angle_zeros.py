@@ -52,9 +52,16 @@ def test_beside_a_large_effect_a_zero_is_found_by_the_pattern_alone():
 TRILOBE = {"pin_ring_trilobe": 4e-6, "pin_ring_trilobe_angle": 0.7}
 
 
-@pytest.mark.parametrize("zero, known", [(13.2, None), (-22.4, None), (40.3, 40.3)])
-def test_beside_a_ring_that_is_off_waves_are_told_apart(zero, known):
-    """A model file with an effect fixed to the ring: 4.5 degrees further the pattern is nearly, but not, the same.
+LOBE = {"lobe_throw_error_1": 4e-6}
+
+
+@pytest.mark.parametrize("effect, own, zero, known, found", [
+    ("pin_position_errors", TRILOBE, 13.2, None, 13.2), ("pin_position_errors", TRILOBE, -22.4, None, -22.4), ("pin_position_errors", TRILOBE, 37.3, 37.3, 37.3),
+    # An error of a crank is the same every second wave: of these the nearest.
+    ("crank_lobe_errors", LOBE, 23.3, None, -0.7), ("crank_lobe_errors", LOBE, 23.3, 2.9, 3.3),
+])  # fmt: skip
+def test_beside_parts_that_are_off_waves_are_told_apart(effect, own, zero, known, found):
+    """A model file with an effect of a part, one of the ring first: 4.5 degrees further the pattern is nearly, but not, the same.
 
     It was looked for within a wave, where `extend` had found it beyond, so that what was added contradicted its measurements.  That which a step has
     stands among several that are alike: three lobes look much alike 60 degrees further.
@@ -66,9 +73,9 @@ def test_beside_a_ring_that_is_off_waves_are_told_apart(zero, known):
     wave = 2.0 * np.pi / 80
     noise = 2e-6 * np.random.default_rng(5).standard_normal(len(angles))
     factors = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
-    record = Record("run", "transmission_error", "rad", "a", 1, bench.column("transmission_error", at, TRILOBE, angles + zero * wave) + noise,
+    record = Record("run", "transmission_error", "rad", "a", 1, bench.column("transmission_error", at, own, angles + zero * wave) + noise,
                     {"angle": angles}, factors, stated_noise=2e-6)  # fmt: skip
-    own = {"pin_position_errors": {name: {"value": value} for name, value in TRILOBE.items()}}
+    present = {effect: {name: {"value": value} for name, value in own.items()}}
     steps = ({"campaign": "a", "nuisances": {"angle_zero[1]": known * wave}},) if known else ()
-    model = PhysicalModel(ModelFile(reducer.name, reducer, effects=own, steps=steps), replace(campaign(), name="a", reducer=reducer, records=(record,)))
-    assert model.zeros["angle_zero[1]"] == pytest.approx(zero * wave, abs=wave / 48)
+    model = PhysicalModel(ModelFile(reducer.name, reducer, effects=present, steps=steps), replace(campaign(), name="a", reducer=reducer, records=(record,)))
+    assert model.zeros["angle_zero[1]"] == pytest.approx(found * wave, abs=wave / 48)

@@ -19,8 +19,8 @@ from fmu_src.arrays import Floats
 # Places in a wave of the pattern that fixes where an angle is counted from.
 PHASES = 48
 SHARES = np.linspace(-0.5, 0.5, PHASES, endpoint=False)
-# Samples by which a likely wave is found, and of how many it is looked up which it is.
-FEW, LIKELY = 2048, 16
+# Samples by which a likely wave is found; of how many of them, and to either side of the nearest, it is looked up which it is.
+FEW, LIKELY, NEAREST = 2048, 12, 2
 # A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
 OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
 
@@ -59,11 +59,13 @@ def middle_of_wave(bench: Bench, record: Record, own: dict[str, float], wave: fl
     few = thinned(record)
     misfits = np.reshape([misfit(few, e) for e in shown_at(bench, few, own, shifts.ravel())[1]], shifts.shape)
     # Waves are told apart by less than a step of phase changes, and than what lies between few nodes.
-    likely = np.argsort(misfits.min(axis=1))[:LIKELY]
-    places = {k: between(shifts[k], misfits[k]) for k in likely}
+    # Where many are alike, those about the middle, too: a nearest one is among them.
+    likely = {*np.argsort(misfits.min(axis=1))[:LIKELY].tolist(), *range(half - NEAREST, half + NEAREST + 1)}
+    places = {k: between(shifts[k], misfits[k]) for k in sorted(likely)}
     left = {k: record.values - predicted_at(bench, record, own, at) for k, at in places.items()}
     best = min(left.values(), key=lambda e: misfit(record, e))
-    alike = [k for k, e in left.items() if gain(e, best) <= SURELY]
+    # Rollers, whose cages are not placed yet, make some difference, too.
+    alike = [k for k, e in left.items() if gain(e, best) <= SURELY or misfit(record, e) <= (1.0 + OF_MISFIT) * misfit(record, best)]
     return wave * float(nearest - half + min(alike, key=lambda k: abs(places[k] - near)))
 
 
