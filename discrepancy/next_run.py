@@ -382,8 +382,13 @@ def blank(example: Record, condition: dict[str, float]) -> Record:
 
 
 def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[str, tuple[float, float]] | None = None) -> str:
-    """Settings as the campaign states them; those that make no difference with their span."""
-    return ", ".join(setting_text(name, (spans or {}).get(name, (value, value)), campaign) for name, value in condition.items())
+    """Settings as the campaign states them; those that make no difference with their span, a temperature that no run states as assumed."""
+    every = {name: (spans or {}).get(name, (value, value)) for name, value in condition.items()}
+    texts = {name: setting_text(name, span, campaign) for name, span in every.items()}
+    low, high = every.get("temperature", (0.0, 1.0))
+    if low == high and campaign.records and not any("temperature" in r.factors for r in campaign.records):
+        texts["temperature"] += " (assumed)"
+    return ", ".join(texts.values())
 
 
 def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> str:

@@ -60,6 +60,9 @@ def test_noise_in_proportion_follows_the_prediction():
 def test_speeds_stand_where_the_campaign_states_them():
     rpm = np.pi / 30.0
     assert describe({"speed": 1815.0 * rpm, "load": 167.0, "temperature": 313.15}, CAMPAIGN) == "15 rpm at the output, 167 N.m, 40 degC"
+    # Of runs of which nobody says how warm they were.
+    unstated = replace(CAMPAIGN, records=(replace(weighed("disc", 1, 2e-6), factors={"load": 20.0}),))
+    assert describe({"load": 167.0, "temperature": 293.15}, unstated) == "167 N.m, 20 degC (assumed)"
     assert describe({"speed": 1815.0 * rpm}, replace(CAMPAIGN, speed_at="input")) == "1815 rpm at the input"
 
 
