@@ -20,7 +20,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure
-from discrepancy.locked_zeros import positions_at_zero
+from discrepancy.locked_zeros import zeros_told
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -113,12 +113,13 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     figures = list(zip(figures_of(diagnostician, model), figures_of(diagnostician, model, fit.fit.values), strict=True))
+    zeros = zeros_told(model, fit.fit)
     step = {
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
         "training_before": fitted.before if fitted else None, "training_after": fitted.after if fitted else None,
         "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
-        "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters},
-        "positions": {name: at / model.bench.ratio for name, at in positions_at_zero(model, fit.fit).items()},
+        "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
+        "positions": zeros,
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}

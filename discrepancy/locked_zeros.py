@@ -30,6 +30,11 @@ def positions_at_zero(model: PhysicalModel, fit: Fit) -> dict[str, float]:
     return {name: fit.values[name] * model.bench.ratio + waves.get(name, 0) * model.locked_waves.wave for name in model.locked_places.names}
 
 
+def zeros_told(model: PhysicalModel, fit: Fit) -> dict[str, float]:
+    """Zeros of angles [rad of the output] as loops tell them, in which wave of the pattern: one number for what transmission errors leave open."""
+    return {name: at / model.bench.ratio for name, at in positions_at_zero(model, fit).items()}
+
+
 def left_of(space: Workspace, fit: Fit, name: str) -> float:
     """Root mean square, over the noise, of what ``fit`` leaves of the transmission errors that tell the zero ``name``."""
     rows = [fit.residual[rows] for i, rows in space.rows.items() if space.records[i].quantity in (ERROR, ORDERS) and angle_zero(space.records[i]) == name]

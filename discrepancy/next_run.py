@@ -213,12 +213,19 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
 
 
 def is_measured(proposal: Proposal, campaign: Campaign) -> bool:
-    """Whether the campaign has a run of what is proposed, at the same settings."""
+    """Whether the campaign has a run of what is proposed: at the same settings, where these make no difference within their span; of what no run
+    states nothing is asked."""
+    stated = {name for record in campaign.records for name in record.factors}
+    wanted = {name: proposal.spans.get(name, (value, value)) for name, value in proposal.settings.items() if name in stated}
+
     def alike(record: Record) -> bool:
-        found = {name: record.factors.get(name) for name in proposal.settings}
-        return stream_of(record) == proposal.kind and all(v is not None and math.isclose(v, proposal.settings[n], abs_tol=1e-9) for n, v in found.items())
+        return stream_of(record) == proposal.kind and all(within(record.factors.get(name), span) for name, span in wanted.items())
 
     return any(map(alike, campaign.records))
+
+
+def within(value: float | None, span: tuple[float, float]) -> bool:
+    return value is not None and (span[0] <= value <= span[1] or any(math.isclose(value, end, rel_tol=1e-9, abs_tol=1e-9) for end in span))
 
 
 def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -23,7 +23,7 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.profile import Profile
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
-from discrepancy.locked_zeros import zero_texts
+from discrepancy.locked_zeros import zero_texts, zeros_told
 from discrepancy.model_file import ModelFile
 from discrepancy.opposite_sign import direction_doubts, sign_doubts
 from discrepancy.other_places import placed
@@ -90,13 +90,16 @@ class Answer:
             name: entry | {"rms": {s: as_told.row(r, s, signals[s], ("before", "after", "floor")) for s, r in (entry.get("rms") or {}).items()}}
             for name, entry in self.diagnosis.held_out.items()
         }
+        members, told = self.diagnosis.fits.members, self.diagnosis.nuisances
+        found = zeros_told(self.model, members[0].fit if members else space.base) if isinstance(self.model, PhysicalModel) else {}
+        zeros = {name: zero for name, zero in found.items() if name in told}
         return self.in_si() | {
             "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]],
                             "forms": {form: [as_told.told_name(n, tables) for n in names] for form, names in e["forms"].items()},
                             "waves": [wave.as_json(tables) for wave in waves_of(e["parameters"])]}
                         for e in self.effects],
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
-            "nuisances": as_told.numbers(self.diagnosis.nuisances, units, tables), "key_figures": as_told.figures(self.figures),
+            "nuisances": as_told.numbers(told | zeros, units, tables), "key_figures": as_told.figures(self.figures),
             "noise": as_told.noises(self.diagnosis.noise, {s: signals[s] for s in self.diagnosis.noise if s in signals}),
         }  # fmt: skip
 

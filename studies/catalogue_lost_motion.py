@@ -1,8 +1,9 @@
 """What the stiffness test reads of a completed reducer, and the gap of the flanks that would make its lost motion the catalogue's."""
 
 from dataclasses import dataclass, replace
+from enum import Enum
 
-from fmu_src.faults import InputFault
+from fmu_src.faults import InputFault, RunFault
 from orchestrator.settings import parse_setting
 from reducers.completion.complete import Completion, complete
 from reducers.completion.file import reducer_at
@@ -29,20 +30,34 @@ class Tested:
     least: float
 
 
-def as_in_catalogue(given: Given, stiffness: float | None, meets: bool, typed: str = "") -> Completion:
-    """Completed as stiff as the catalogue says [N m/arcmin], if it does, ``typed`` with its unit; ``meets``: with the gap of the flanks that makes its
-    lost motion."""
+class Meets(Enum):
+    """Whether the gap of the flanks is to make the catalogue's lost motion; ``IF_IT_CAN``: where none does it stays the rule's."""
+
+    NOT, IF_IT_CAN, SURELY = range(3)
+
+
+def as_in_catalogue(given: Given, stiffness: float | None, meets: Meets, typed: str = "") -> Completion:
+    """Completed as stiff as the catalogue says [N m/arcmin], if it does, ``typed`` with its unit, and with its lost motion as far as ``meets`` asks."""
     completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness, typed)
-    return as_in_catalogue(replace(given, flank_gap=gap_for(completion)), stiffness, False, typed) if meets else completion
+    gap = gap_for(completion, meets)
+    return completion if gap is None else as_in_catalogue(replace(given, flank_gap=gap), stiffness, Meets.NOT, typed)
 
 
-def gap_for(completion: Completion) -> float:
-    """Gap of the flanks [um] that makes the lost motion the catalogue's; InputFault where none does, or it is known."""
+def gap_for(completion: Completion, meets: Meets) -> float | None:
+    """Gap of the flanks [um] that makes the lost motion the catalogue's; None where none is asked for or does, InputFault where one surely has to."""
     given = completion.given
-    if GAP in given.known:
+    if GAP in given.known and meets is Meets.SURELY:
         raise InputFault(f"--meet-lost-motion and --known {GAP}: each says the gap of the flanks; keep one")
-    found = tested(reducer_at(completion, {}), completion.numbers[GAP].value, given.lost_motion)
-    if found.gap is None:
+    if GAP in given.known or meets is Meets.NOT:
+        return None
+    try:
+        found = tested(reducer_at(completion, {}), completion.numbers[GAP].value, given.lost_motion)
+    except RunFault:
+        if meets is Meets.SURELY:
+            raise
+        # Its check says what is wrong with it.
+        return None
+    if found.gap is None and meets is Meets.SURELY:
         raise InputFault(
             f"--meet-lost-motion: no gap of the flanks makes a lost motion of {given.lost_motion:g} arcmin, without one it is {found.least:.3g} arcmin;"
             " look at --lost-motion, or give --known bearing.clearance=... or first_stage.backlash=..., which make the rest"

@@ -1,5 +1,6 @@
 """``rvwear reducer new``: completed by design rules, checked as any other file, told what makes no reducer."""
 
+import argparse
 import json
 import math
 import re
@@ -8,6 +9,7 @@ import shlex
 import numpy as np
 import pytest
 
+from cli.commands.new_reducer import ratio_in
 from cli.main import main
 from fmu_src.faults import InputFault
 from pages.render import rendered_sections
@@ -18,7 +20,7 @@ from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
 from reducers.completion.geometry import largest_pin
-from reducers.completion.given import SUN, Given, given_with, usual_pins
+from reducers.completion.given import SUN, Given, given_with, of_ratio, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
 from studies.catalogue_stiffness import as_stiff_as
@@ -26,7 +28,7 @@ from studies.completed_ranges import Influence, influences, what_matters
 from studies.hysteresis import hysteresis
 from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
-from workbench.reducers import findings, rows_of
+from workbench.reducers import findings, given_of, rows_of
 
 RIG = ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "1600"]
 
@@ -90,14 +92,18 @@ def test_lost_motion_is_held_against_the_catalogue_s_and_the_gap_is_said_that_ma
 
 
 def test_a_gap_that_makes_the_lost_motion_is_completed_with_its_range_and_nobody_s_measure(tmp_path, capsys):
-    """It stood in the file as "given: measured", without a range; the command that was printed left the page out."""
+    """It stood in the file as "given: measured", without a range; the command that was printed left the page out; a lost motion that was given was
+    not met, where a stiffness that was given is."""
     path, page = tmp_path / "mine.toml", tmp_path / "mine.html"
-    catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--lost-motion", "0.8", "--output", str(path), "--overwrite"]
-    assert main([*catalogue, "--html", str(page), "--against", "RV20E-121-rigid"]) == 0
+    usual = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--output", str(path), "--overwrite"]
+    assert main([*usual, "--html", str(page), "--against", "RV20E-121-rigid"]) == 0
     [line] = [line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear reducer new")]
     assert f"--html {page}" in line and "--against RV20E-121-rigid" in line and "--meet-lost-motion" in line
     page.unlink()
     assert main(shlex.split(line)[1:]) == 0 and page.exists()
+    catalogue = [*usual, "--lost-motion", "0.8"]
+    capsys.readouterr()
+    assert main(catalogue) == 0
     assert "the catalogue's: 0.8)" in " ".join(capsys.readouterr().out.split())
     made = load_reducer(path)
     low, high = made.ranges["equidistant_modification"]
@@ -110,6 +116,15 @@ def test_a_gap_that_makes_the_lost_motion_is_completed_with_its_range_and_nobody
     assert "disc.equidistant_modification" not in given.known and "--meet-lost-motion" in words_of(given)
     assert main([*catalogue, "--meet-lost-motion", "--known", "disc.equidistant_modification=3um"]) == 2
     assert "each says the gap of the flanks; keep one" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["121", "1:121", "121:1", "1 : 121", "1/121"])
+def test_a_ratio_is_read_as_a_catalogue_prints_it(text):
+    """It was a unit ":121" that nobody knows, or no number."""
+    assert of_ratio(text) == "121"
+    assert given_of({"ratio": text, "rated": "167"})[0].ratio == 121.0 and ratio_in(text) == 121.0
+    with pytest.raises(argparse.ArgumentTypeError, match="write 121, or 1:121"):
+        ratio_in("121 to 1")
 
 
 def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):

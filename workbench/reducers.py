@@ -21,11 +21,11 @@ from reducers.checking import check
 from reducers.completion.command import typed, usual_name, words_of
 from reducers.completion.complete import UNITS, Completion
 from reducers.completion.file import text_of
-from reducers.completion.given import GAP, Given, given_with
+from reducers.completion.given import GAP, Given, given_with, of_ratio
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
-from studies.catalogue_lost_motion import as_in_catalogue, tested
+from studies.catalogue_lost_motion import Meets, as_in_catalogue, tested
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
@@ -137,7 +137,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
         known, stiffness = given_of(given)
-        completion = as_in_catalogue(known, stiffness, bool(given.get("meets_lost_motion")), str(given.get("stiffness") or "").replace(",", "."))
+        meets = Meets.SURELY if given.get("meets_lost_motion") else Meets.NOT
+        completion = as_in_catalogue(known, stiffness, meets, str(given.get("stiffness") or "").replace(",", "."))
         name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
             raise InputFault(f"name {name!r}: it becomes a file's name; leave out / \\ : * ? \" < > |")
@@ -190,6 +191,7 @@ def given_of(given: Mapping[str, Any]) -> tuple[Given, float | None]:
             if needed:
                 raise InputFault(f"{label} is needed")
             continue
+        text = of_ratio(text) if name == "ratio" else text
         values[name] = form.whole(text, label) if name in WHOLE else form.in_unit(text, unit, label)
     stiffness = values.pop("stiffness", None)
     known = given.get("known") or {}

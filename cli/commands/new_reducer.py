@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from reducers.completion.complete import Completion
     from reducers.completion.given import Given
     from reducers.reducer import Reducer
-    from studies.catalogue_lost_motion import Tested
+    from studies.catalogue_lost_motion import Meets, Tested
     from studies.completed_ranges import Influence
 
 
@@ -26,7 +26,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     check_reducer.add_command(actions)
     check_reducer.add_list(actions)
     new = actions.add_parser("new", help="a whole reducer file from ratio, tooth numbers, rated torque and a few measures, by design rules")
-    new.add_argument("--ratio", type=float, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
+    new.add_argument("--ratio", type=ratio_in, required=True, help="ratio with the carrier as output: 1 + pins z2/z1")
     new.add_argument("--pins", type=int, help="pins in the ring: one more than a disc has lobes (default 40, or what the ratio needs: assumed)")
     new.add_argument("--rated", type=number_in("N.m"), required=True, metavar="NM", help="rated output torque [N m]")
     new.add_argument("--lobes", type=int, help="lobes of a disc, where somebody counted them: one less than pins")
@@ -34,13 +34,13 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--speed", type=number_in("rpm"), default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues)")
     new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
-    new.add_argument("--lost-motion", type=number_in("arcmin"), default=1.0, metavar="ARCMIN",
-                     help="lost motion of the catalogue [arcmin]: bounds the flanks' gaps, not the whole (default 1)")
+    new.add_argument("--lost-motion", type=number_in("arcmin"), metavar="ARCMIN",
+                     help="lost motion of the catalogue [arcmin]: the gap of the flanks is made as that asks for, if one does (not given: 1 bounds that gap)")
     new.add_argument("--stiffness", type=told_in("N.m/arcmin"), metavar="NM/ARCMIN",
                      help="torsional stiffness of the catalogue [N m/arcmin]: the supports of the cranks are made as soft as that asks for")
     new.add_argument(
         "--meet-lost-motion", action="store_true",
-        help="take the gap of the flanks with which the stiffness test reads that lost motion; the file has it as completed, with its range",
+        help="take the gap of the flanks with which the stiffness test reads that lost motion, or end where none does; it stands as completed",
     )  # fmt: skip
     new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
@@ -80,7 +80,7 @@ def run_new(options: argparse.Namespace) -> int:
     target = target_of(options.output or f"{name}.toml", "--output", ".toml", options.overwrite)
     page = target_of(options.html, "--html", ".html", options.overwrite) if options.html else None
     with task("completing and checking"):
-        completion = as_in_catalogue(given, *stiffness_of(options))
+        completion = as_in_catalogue(given, *catalogue_of(options))
         text = text_of(completion, name)
         reducer = checked(text, target)
     write_text(target, text)
@@ -105,10 +105,13 @@ def run_new(options: argparse.Namespace) -> int:
     return 0
 
 
-def stiffness_of(options: argparse.Namespace) -> tuple[float | None, bool, str]:
+def catalogue_of(options: argparse.Namespace) -> tuple[float | None, "Meets", str]:
     """As ``as_in_catalogue`` takes what the catalogue says."""
+    from studies.catalogue_lost_motion import Meets
+
     told = options.stiffness
-    return (None if told is None else told.value), options.meet_lost_motion, ("" if told is None else told.text)
+    meets = Meets.SURELY if options.meet_lost_motion else Meets.NOT if options.lost_motion is None else Meets.IF_IT_CAN
+    return (None if told is None else told.value), meets, ("" if told is None else told.text)
 
 
 def command_of(options: argparse.Namespace, given: "Given", target: Path) -> list[str]:
@@ -148,13 +151,24 @@ def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influe
 
 
 def given_by(options: argparse.Namespace) -> "Given":
-    from reducers.completion.given import given_with
+    from reducers.completion.given import Given, given_with
     from reducers.completion.known import known_numbers
 
+    lost_motion = Given.lost_motion if options.lost_motion is None else options.lost_motion
     return given_with(
         ratio=options.ratio, pins=options.pins, rated=options.rated, lobes=options.lobes, diameter=options.diameter, speed=options.speed,
-        cranks=options.cranks, rollers=options.rollers, lost_motion=options.lost_motion, known=known_numbers(options.known),
+        cranks=options.cranks, rollers=options.rollers, lost_motion=lost_motion, known=known_numbers(options.known),
     )  # fmt: skip
+
+
+def ratio_in(text: str) -> float:
+    """As a catalogue prints it, too: 1:121."""
+    from reducers.completion.given import of_ratio
+
+    try:
+        return float(of_ratio(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no ratio; write 121, or 1:121") from None
 
 
 def target_of(text: str, option: str, ending: str, overwrite: bool) -> Path:

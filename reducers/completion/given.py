@@ -111,3 +111,9 @@ def usual_pins(ratio: float) -> int:
     """Pins that a reducer of this ratio is assumed to have: the usual number, or the nearest with which whole teeth make the ratio."""
     found = sorted(OTHER_PINS, key=lambda pins: abs(pins - USUAL_PINS))
     return next((pins for pins in found if Given(ratio, pins, 1.0).suns), USUAL_PINS)
+
+
+def of_ratio(text: str) -> str:
+    """The number of a ratio as a catalogue prints it: 121 of 1:121, 121:1 and 1/121; other texts as they are."""
+    parts = [part.strip() for part in text.replace("/", ":").split(":")]
+    return next((part for part in parts if part != "1"), "1") if len(parts) == 2 and "1" in parts else text
