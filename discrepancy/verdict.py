@@ -44,7 +44,7 @@ from fmu_src.threads import sharing_no_matrices
 class Answer:
     """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
     ``made`` is when it was made [s since 1970]: one that is kept is found again later; ``profiles`` of fits by their name, once a page has drawn
-    them; ``untold``: from which of two things what is named, or stands in the model file, comes."""
+    them; ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -58,6 +58,7 @@ class Answer:
     doctor: Diagnostician = field(repr=False)
     made: float = field(default_factory=time.time, compare=False)
     untold: list[str] = field(default_factory=list)
+    zeros: dict[str, float] = field(default_factory=dict)
     profiles: dict[str, list[Profile]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
@@ -90,16 +91,14 @@ class Answer:
             name: entry | {"rms": {s: as_told.row(r, s, signals[s], ("before", "after", "floor")) for s, r in (entry.get("rms") or {}).items()}}
             for name, entry in self.diagnosis.held_out.items()
         }
-        members, told = self.diagnosis.fits.members, self.diagnosis.nuisances
-        found = zeros_told(self.model, members[0].fit if members else space.base) if isinstance(self.model, PhysicalModel) else {}
-        zeros = {name: zero for name, zero in found.items() if name in told}
+        nuisances = self.diagnosis.nuisances | {name: zero for name, zero in self.zeros.items() if name in self.diagnosis.nuisances}
         return self.in_si() | {
             "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]],
                             "forms": {form: [as_told.told_name(n, tables) for n in names] for form, names in e["forms"].items()},
                             "waves": [wave.as_json(tables) for wave in waves_of(e["parameters"])]}
                         for e in self.effects],
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
-            "nuisances": as_told.numbers(told | zeros, units, tables), "key_figures": as_told.figures(self.figures),
+            "nuisances": as_told.numbers(nuisances, units, tables), "key_figures": as_told.figures(self.figures),
             "noise": as_told.noises(self.diagnosis.noise, {s: signals[s] for s in self.diagnosis.noise if s in signals}),
         }  # fmt: skip
 
@@ -179,7 +178,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += ring_texts(effects, fit.values) + sign_doubts(effects, found) + direction_doubts(effects, found, as_told.tables_of(model))
     untold = origins_untold([*names, *model.file.effects], model.campaign)
     warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
-    return Answer(model, found, verdict, reason, effects, confusable, laws, list(dict.fromkeys(warnings)), figures, doctor, untold=untold)
+    warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
+    return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:
