@@ -169,7 +169,7 @@ def test_what_was_known_before_has_no_price():
 
 def test_a_loop_where_the_input_is_known_to_stand_is_an_experiment():
     plain = Measurement("hysteresis at 20 degC", 1.0, 1e-6, settings={"temperature": 293.15}, record=loop_record(), kind="hysteresis")
-    campaign = SimpleNamespace(ratio=RATIO, rated_torque=167.0, speed_at="input")
+    campaign = SimpleNamespace(ratio=RATIO, rated_torque=167.0, speed_at="input", records=())
     there = at_a_position(plain, campaign)
     assert isinstance(there, Experiment) and not is_unplaced(there.record) and there.record.factors[LOCKED_AT] == 0.0
     assert there.name == "hysteresis at 20 degC, input locked at 0 deg"
