@@ -15,10 +15,15 @@ ZERO = "angle_zero["
 def zeros_of(steps: Iterable[Mapping[str, Any]]) -> dict[tuple[str, str], float]:
     """(campaign, mounting) -> the output angle of the model [rad] at which that campaign's angle is 0, by the last step that was kept."""
     return {
-        (str(step.get("campaign", "")), name.removeprefix(ZERO).rstrip("]")): float(zero)
+        (str(step.get("campaign", "")), mounting_of(name)): float(zero)
         for step in steps if step.get("kept", True)
         for name, zero in {**step.get("nuisances", {}), **step.get("positions", {})}.items() if name.startswith(ZERO)
     }  # fmt: skip
+
+
+def mounting_of(zero: str) -> str:
+    """Of a zero by its name: ``1`` of ``angle_zero[1]``."""
+    return zero.removeprefix(ZERO).rstrip("]")
 
 
 def zero_texts(reducer: Reducer, steps: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from discrepancy.counted_from import mounting_of
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -45,7 +46,7 @@ def zero_text(name: str, turned: float, unfit: bool, period: float) -> str:
     """Of a zero (``angle_zero[1]``) ``turned`` [rad of the input] from the model's; empty where that is near, to whole turns of the cranks, the ``period``,
     after which positions are much alike (after one of the input they are not).  One that is ``unfit`` has no number: a
     large effect hides the pattern, and where that is found then, near or far, says nothing."""
-    counted = f"where the input was locked is counted from the zero of the transmission errors of mounting {name.partition('[')[2].rstrip(']')}"
+    counted = f"where the input was locked is counted from the zero of the transmission errors of mounting {mounting_of(name)}"
     if unfit:
         return (f"{counted}; that zero is of a model which does not fit yet (they are off by more than {UNFIT:g} times their noise) and may move when what is"
                 " missing is found: change nothing for it before")  # fmt: skip

@@ -4,7 +4,7 @@ The seat of one crank, too far forward by as much as it might be too far back, o
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from discrepancy.as_told import told_name
@@ -31,12 +31,12 @@ def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables
     """
     found_doubts = []
     for member in alone(effects, found):
-        fitted = dict(member.fit.values)
-        own = {p.name for p in member.own}
-        rest = {name: value for name, value in fitted.items() if name not in own}
-        for p, other in half_a_turn_on(member):
-            if as_shown(found.fits.space, fitted, rest)({**fitted, p.name: other}):
-                here, there = (f"{math.degrees(angle):.1f} deg" for angle in (fitted[p.name], other))
+        if not (others := list(half_a_turn_on(member))):
+            continue
+        same = shown_by(member, found)
+        for p, other in others:
+            if same({p.name: other}):
+                here, there = (f"{math.degrees(angle):.1f} deg" for angle in (member.fit.values[p.name], other))
                 found_doubts.append(
                     f"{told_name(p.name, tables)}: {there} shows the same in the runs that were fitted as {here}; they do not tell which of the two it is"
                 )
@@ -73,6 +73,11 @@ def either_sign(member: Refit, found: Diagnosis) -> bool:
     opposite = {p.name: 2.0 * p.off - fitted[p.name] for p in amplitudes}
     if not amplitudes or any(p.sign or not p.lower <= opposite[p.name] <= p.upper for p in amplitudes):
         return False
-    own = {p.name for p in member.own}
-    rest = {name: value for name, value in fitted.items() if name not in own}
-    return as_shown(found.fits.space, fitted, rest)({**fitted, **opposite})
+    return shown_by(member, found)(opposite)
+
+
+def shown_by(member: Refit, found: Diagnosis) -> Callable[[Mapping[str, float]], bool]:
+    """Whether other values of a member's parameters show in the fitted runs what its own do."""
+    fitted, own = dict(member.fit.values), {p.name for p in member.own}
+    same = as_shown(found.fits.space, fitted, {name: value for name, value in fitted.items() if name not in own})
+    return lambda other: same({**fitted, **other})

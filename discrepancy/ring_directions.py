@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from discrepancy.counted_from import ZERO
+from discrepancy.counted_from import ZERO, mounting_of
 
 # Directions of effects that are fixed to the ring.
 OF_RING = "pin_ring_"
@@ -13,7 +13,7 @@ OF_RING = "pin_ring_"
 def ring_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float]) -> list[str]:
     """Where direction 0 is, if an effect that is named has one round the ring and a fit (``values``) has found where angles count from."""
     directed = any(name.startswith(OF_RING) and entry.get("direction") for effect in effects for name, entry in effect["parameters"].items())
-    zeros = {name[len(ZERO) :].rstrip("]"): math.degrees(value) for name, value in values.items() if name.startswith(ZERO)}
+    zeros = {mounting_of(name): math.degrees(value) for name, value in values.items() if name.startswith(ZERO)}
     if not (directed and zeros):
         return []
     stands = ", ".join(f"{zero:.1f} deg where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())

@@ -174,7 +174,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
-    doubts += zero_texts(model, doctor.space, best.fit if best else doctor.space.base)
+    doubts += zero_texts(model, doctor.space, fit)
     doubts += ring_texts(effects, fit.values) + sign_doubts(effects, found) + direction_doubts(effects, found, as_told.tables_of(model))
     untold = origins_untold([*names, *model.file.effects], model.campaign)
     warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))

@@ -1,7 +1,7 @@
 """Files as a bench of some country writes them, of a reducer that has an effect which its model lacks: what a new user is given.
 
-    python3 -m benchmarks.first_hour.files pt /tmp/kit ring_ovality=5e-6 ring_ovality_angle=2.3
-    python3 -m benchmarks.first_hour.files de /tmp/kit               # a sound reducer
+    python3 -m benchmarks.first_hour.files pt KIT pin_ring_ovality=5e-6 pin_ring_ovality_angle=2.3
+    python3 -m benchmarks.first_hour.files de KIT               # a sound reducer
 
 Twelve transmission errors (three loads, two speeds, two repetitions each) of an encoder on the output, and four loops of a locked
 input.  What is hidden is printed and stands in no file of the folder.

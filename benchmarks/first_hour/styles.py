@@ -7,7 +7,7 @@ from dataclasses import dataclass
 class Style:
     """``error``, ``loop``: file names of ``load`` [N m], ``speed`` [rpm of the input], ``degrees`` of the locked input, ``k`` of a repetition.
 
-    ``above``: lines before the heads, of the same and the date; ``error_heads``, ``loop_heads``: columns of output angle [deg] and error
+    ``above``, ``loop_above``: lines before the heads, of the same; ``error_heads``, ``loop_heads``: columns of output angle [deg] and error
     [arcsec], of torque [N m] and turning [arcmin].
     """
 

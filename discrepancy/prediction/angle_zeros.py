@@ -12,6 +12,7 @@ from discrepancy.prediction.conditions import angle_zero, turns_of
 from discrepancy.prediction.curves import OverAngle, shifted_errors, signal
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import gain
 from discrepancy.problem import ERROR, ORDERS, Record
 from fmu_src.arrays import Floats
@@ -36,9 +37,9 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
     zeros: dict[str, float] = {}
     for name, record in telling(bench, records).items():
         own = for_record(record, {**zeros, **standing})
-        middle = 0.0 if known is None else middle_of_wave(bench, record, own, wave, known.get(name, 0.0))
-        if middle:
-            zeros[name] = middle + float(SHARES[np.argmin([misfit(record, e) for e in shown_at(bench, record, own, middle + SHARES * wave)[1]])]) * wave
+        place = 0.0 if known is None else place_in_turn(bench, record, own, wave, known.get(name, 0.0))
+        if round(place / wave):
+            zeros[name] = place
             continue
         shifts = SHARES * wave
         found, left = shown_at(bench, record, own, shifts)
@@ -52,8 +53,8 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
     return zeros
 
 
-def middle_of_wave(bench: Bench, record: Record, own: dict[str, float], wave: float, near: float) -> float:
-    """Middle [rad] of the ``wave`` within half a turn of ``near`` in which the record's angle 0 lies: of those that tell it alike the nearest."""
+def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, near: float) -> float:
+    """The record's angle 0 [rad] within half a turn of ``near``: of waves that tell it alike in the nearest."""
     half, nearest = round(np.pi / wave), round(near / wave)
     shifts = wave * (np.arange(nearest - half, nearest + half)[:, None] + SHARES)
     few = thinned(record)
@@ -66,7 +67,7 @@ def middle_of_wave(bench: Bench, record: Record, own: dict[str, float], wave: fl
     best = min(left.values(), key=lambda e: misfit(record, e))
     # Rollers, whose cages are not placed yet, make some difference, too.
     alike = [k for k, e in left.items() if gain(e, best) <= SURELY or misfit(record, e) <= (1.0 + OF_MISFIT) * misfit(record, best)]
-    return wave * float(nearest - half + min(alike, key=lambda k: abs(places[k] - near)))
+    return min((places[k] for k in alike), key=lambda place: abs(place - near))
 
 
 def thinned(record: Record) -> Record:
@@ -86,10 +87,7 @@ def predicted_at(bench: Bench, record: Record, own: dict[str, float], zero: floa
 def between(places: Floats, misfits: Floats) -> float:
     """Where the least of ``misfits`` at even ``places`` would be: of a parabola through three of them."""
     k = int(np.argmin(misfits[1:-1])) + 1
-    before, least, after = misfits[k - 1 : k + 2]
-    bent = before - 2.0 * least + after
-    share = float(np.clip(0.5 * (before - after) / bent, -0.5, 0.5)) if bent > 0.0 else 0.0
-    return float(places[k] + share * (places[1] - places[0]))
+    return float(places[k] + vertex(*misfits[k - 1 : k + 2]) * (places[1] - places[0]))
 
 
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],

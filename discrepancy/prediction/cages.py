@@ -17,6 +17,7 @@ from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
+from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record, is_unplaced
 from fmu_src.arrays import Floats
@@ -159,6 +160,5 @@ def likeliest(ripples: Floats, misfit: Floats, share: float) -> float:
     left = np.einsum("ij,jk,ik->i", shown, columns.T @ columns, shown)
     best = int(np.clip(np.argmin(left), 1, LOOKS - 2))
     before, at, after = left[best - 1 : best + 2]
-    bend = before - 2.0 * at + after
-    step = float(np.clip(0.5 * (before - after) / bend, -1.0, 1.0)) if bend > 0.0 else 0.0
+    step = vertex(before, at, after, 1.0)
     return float(shares[best]) + step * float(shares[1] - shares[0])

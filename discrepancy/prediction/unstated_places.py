@@ -20,6 +20,7 @@ import numpy.typing as npt
 from discrepancy.closed_loop import scatter
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.by_effects import Effects, restored, with_most
+from discrepancy.prediction.parabola import vertex
 from discrepancy.problem import ERROR, Parameter, Record, is_unplaced
 from fmu_src.arrays import Floats
 
@@ -128,8 +129,7 @@ class UnstatedPlaces:
             centre = best_of(loop, predicted, centre + np.linspace(-step, step, 2 * CLOSER + 1))
             step /= CLOSER
         before, at, after = (left_of(loop, predicted, centre + part) for part in (-step, 0.0, step))
-        bend = before - 2.0 * at + after
-        return centre + step * float(np.clip(0.5 * (before - after) / bend, -0.5, 0.5)) if bend > 0.0 else centre
+        return centre + step * vertex(before, at, after)
 
     def are_near(self, place: float, other: float) -> bool:
         """Whether two places are one, as roughly as a search sees it."""
