@@ -2,6 +2,7 @@
 
 import json
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +15,7 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.conditions import angle_zero
+from discrepancy.prediction.conditions import angle_zero, identity
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
 from discrepancy.remembered import key
@@ -223,6 +224,13 @@ def test_a_loop_at_one_position_is_met_where_it_is_stated(tmp_path):
     # The error of a mean over positions is none of it.
     assert "model_error[hysteresis]" in [p.name for p in unstated.nuisances]
     assert "model_error[hysteresis]" not in [p.name for p in stated.nuisances]
+
+
+def test_a_kept_model_knows_its_records_where_they_are_now(tmp_path):
+    """Where the records that were kept had lain, one that is tried for a moment may lie."""
+    model = PhysicalModel(load_model("RV20E-121"), looped(tmp_path, 0.005, 'locked_at = "0 deg"'))
+    again = pickle.loads(pickle.dumps(model))  # noqa: S301 - made here
+    assert again.identities == {id(record): identity(record) for record in again.records}
 
 
 def test_a_diagnosis_is_kept_under_its_position(tmp_path):

@@ -30,7 +30,7 @@ def test_a_zero_that_moves_takes_the_place_along():
     moved = places.placed(record, OVAL)
     assert moved.factors == {LOCKED_AT: pytest.approx(math.pi / 2.0 + 0.003 * RATIO), "load": 100.0}
     # The same one each time, for what is kept of it; without the effect it stays.
-    assert places.placed(record, OVAL) is moved
+    assert places.placed(record, OVAL).factors == moved.factors
     assert places.placed(record, NOTHING) is record
 
 

@@ -38,9 +38,18 @@ def test_the_wave_is_that_of_the_loop_that_was_measured():
     assert waves.are_elsewhere(OVAL, shown, as_it_is) and waves.place(OVAL, shown, as_it_is)
     moved = waves.placed(record, OVAL)
     assert moved.factors[LOCKED_AT] == pytest.approx(1.1 * WAVE)
-    # The same one each time, with further effects too; without the effect it stays.
-    assert waves.placed(record, OVAL | {"drag"}) is moved and waves.placed(record, NOTHING) is record
+    # With further effects too; without the effect it stays.
+    assert waves.placed(record, OVAL | {"drag"}).factors == moved.factors and waves.placed(record, NOTHING) is record
     assert not waves.are_elsewhere(OVAL, shown, as_it_is) and not waves.place(OVAL, shown, as_it_is)
+
+
+def test_a_place_that_is_tried_goes_its_own_way():
+    """Records of places that are tried live for a moment, and the next one has the address of one before."""
+    waves = LockedWaves([loop()], [NAME], WAVE, 2)
+    waves.found[OVAL] = {NAME: 1}
+    tried = [0.01 * k for k in range(50)]
+    moved = [waves.placed(loop(place), OVAL).factors[LOCKED_AT] for place in tried]
+    assert moved == pytest.approx([place + WAVE for place in tried])
 
 
 def test_a_wave_that_is_hardly_better_is_not_taken():

@@ -26,7 +26,6 @@ class LockedPlaces(ByEffects):
         self.ratio = abs(ratio)
         locked = {angle_zero(r) for r in records if has_place(r)}
         self.names = sorted(locked & self.without.keys())
-        self.moved: dict[tuple[int, float], Record] = {}
 
     def now(self, values: Mapping[str, float]) -> dict[str, float]:
         return {name: values[name] for name in self.names}
@@ -43,12 +42,7 @@ class LockedPlaces(ByEffects):
             return record
         if effects and values and name in values:
             return shifted(record, self.zero_moved(record, values))
-        shift = (self.taken(effects)[name] - self.without[name]) * self.ratio
-        if not shift:
-            return record
-        if (id(record), shift) not in self.moved:
-            self.moved[id(record), shift] = shifted(record, shift)
-        return self.moved[id(record), shift]
+        return shifted(record, (self.taken(effects)[name] - self.without[name]) * self.ratio)
 
 
 def has_place(record: Record) -> bool:
@@ -58,6 +52,8 @@ def has_place(record: Record) -> bool:
 
 def shifted(record: Record, shift: float) -> Record:
     """A record as if its input was locked ``shift`` [rad] further, wherever it says a place."""
+    if not shift:
+        return record
     factors = {key: value + shift if key == LOCKED_AT else value for key, value in record.factors.items()}
     axes = {key: axis + shift if key == LOCKED_AT else axis for key, axis in record.axes.items()}
     return replace(record, factors=factors, axes=axes)

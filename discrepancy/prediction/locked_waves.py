@@ -33,7 +33,6 @@ class LockedWaves:
             if angle_zero(record) in self.names and record.quantity == "hysteresis" and LOCKED_AT in record.factors and not record.held_out:
                 self.loops.setdefault(angle_zero(record), {}).setdefault(record.condition, fewer_samples(record))
         self.found: dict[Effects, dict[str, int]] = {}
-        self.moved: dict[tuple[int, int], Record] = {}
 
     def taken(self, effects: Effects) -> dict[str, int]:
         """Those found with these effects, else with the most of them."""
@@ -49,11 +48,7 @@ class LockedWaves:
 
     def further(self, record: Record, waves: int) -> Record:
         """A record of a known place as if it was locked ``waves`` further."""
-        if not waves or not has_place(record):
-            return record
-        if (id(record), waves) not in self.moved:
-            self.moved[id(record), waves] = shifted(record, waves * self.wave)
-        return self.moved[id(record), waves]
+        return shifted(record, waves * self.wave) if has_place(record) else record
 
     def chosen(self, effects: Effects, predicted: Callable[[Record], Floats], placed: Callable[[Record], Record]) -> dict[str, int]:
         """The waves with these effects, of loops ``predicted`` [rad] where they are ``placed`` by their zero."""

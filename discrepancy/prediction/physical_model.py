@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -105,7 +106,7 @@ class PhysicalModel:
         in_process = Bench(model.reducer, present) if fmus else self.bench
         self.lags = Lags(self.bench, self.records)
         self.cages = Cages(in_process, self.records, self.as_seen, self.threads)
-        self.identities = {id(record): identity(record) for record in self.records}
+        self.identities = identities_of(self.records)
         self.shown: dict[Hashable, Floats] = {}
         # Amplitudes of the file's own effects where these are off.
         off = {p.variable.name: p.variable.start for effect in every_effect().values() for p in effect.amplitudes()}
@@ -135,6 +136,11 @@ class PhysicalModel:
             self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
         ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Records that come back from a file are other objects: another may have the address that one of them had."""
+        self.__dict__.update(state)
+        self.identities = identities_of(self.records)
 
     def angle_nuisances(self) -> list[Parameter]:
         found = [
@@ -370,6 +376,11 @@ class PhysicalModel:
         places = {"mounting": record.mounting, "condition": record.condition, "run": record.name}
         own = {n: asked.values[f"{n}[{places[per]}]"] for n, per in self.per.items() if per in places and f"{n}[{places[per]}]" in asked.values}
         return asked.of_reducer | own if own else asked.of_reducer
+
+
+def identities_of(records: Sequence[Record]) -> dict[int, tuple[Hashable, ...]]:
+    """``identity`` by the address of each, while they live."""
+    return {id(record): identity(record) for record in records}
 
 
 def bench_of(model: ModelFile, settings: Mapping[str, float], fmus: Path | None) -> Bench:
