@@ -84,14 +84,15 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
         names = [name for name in own[0] if all(name in run for run in own)]
         if not names:
             continue
-        # Noise widens a span and lengthens an amplitude, whatever is measured: drawn about the model.  A stiffness errs as the measured one does.
-        about = np.asarray(space.records[indices[0]].values, float) if PLAIN.keys() & set(names) else predictions[indices[0]]
-        drawn = with_noise(space, indices[0], about, reading[0])
+        # Noise widens a span and lengthens an amplitude, whatever is measured: the model's is read with it.  What is measured errs by what noise makes
+        # of it, whatever the model.
+        first = np.asarray(space.records[indices[0]].values, float)
+        drawn = with_noise(space, indices[0], [first] if PLAIN.keys() & set(names) else [first, predictions[indices[0]]], reading[0])
         for name in names:
             values = [run[name] for run in own]
-            by_samples = np.array([d.get(name, np.nan) for d in drawn])
-            noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples)))
-            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in PLAIN else by_samples
+            by_samples = np.array([[d.get(name, np.nan) for d in read] for read in drawn])
+            noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples[0])))
+            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in PLAIN else by_samples[1]
             found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
                                    noise / np.sqrt(len(values)), len(values), (signal, name) in spread))  # fmt: skip
     return found
@@ -133,20 +134,21 @@ def robust(deviations: Floats) -> float:
     return float(np.sqrt(np.mean(deviations[kept] ** 2))) if kept.any() and np.any(deviations[kept]) else float(np.sqrt(np.mean(deviations**2)))
 
 
-def with_noise(space: Workspace, i: int, values: Floats, reading: Reading) -> list[dict[str, float]]:
-    """Figures of ``values`` as they would be read with the noise of a run's samples, drawn several times."""
+def with_noise(space: Workspace, i: int, curves: Sequence[Floats], reading: Reading) -> list[list[dict[str, float]]]:
+    """Figures of each of the ``curves`` (n,) as they would be read with the noise of a run's samples, the same for all, drawn several times."""
     whitener = space.noise.whiteners[i]
     stream = space.noise.streams[whitener.quantity]
     scale = float(np.median(whitener.scale))
     position = position_of(space.records[i])
     rho = float(np.exp(-spacing_of(position) / stream.length)) if stream.length > 0.0 else 0.0
     random = np.random.default_rng(0)
-    found = []
+    found: list[list[dict[str, float]]] = [[] for _ in curves]
     for _ in range(DRAWS):
-        slow = random.standard_normal(len(values))
+        slow = random.standard_normal(len(curves[0]))
         carry_on(slow, rho, float(np.sqrt(1.0 - rho**2)))
-        noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(values)))
-        found.append(reading(values + noise))
+        noise = scale * (np.sqrt(1.0 - stream.nugget) * slow + np.sqrt(stream.nugget) * random.standard_normal(len(slow)))
+        for values, read in zip(curves, found):
+            read.append(reading(values + noise))
     return found
 
 

@@ -146,6 +146,9 @@ def test_figures_hold_what_was_measured_against_the_model_with_noise():
     # What noise makes of an amplitude that is not there is no difference to the model.
     assert all(abs(f.off) < 5.0 for f in found.values() if f.signal == "transmission_error")
     assert stiffness.as_json()["off"] == stiffness.off
+    # What is measured errs by as much, whatever it is held against.
+    better = key_figures(space, model.predict({"spring": 4e-6, "width": 2e-5}), ORDERS, RATED)
+    assert [f.noise for f in better] == [f.noise for f in found.values()]
 
 
 def figure(name, measured, model, noise):
