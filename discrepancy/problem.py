@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -189,6 +189,10 @@ class OnThreads(Protocol):
     threads: Threads
 
 
+# What a model has placed beside effects, which nobody else looks into.
+Places = tuple[Any, ...]
+
+
 @runtime_checkable
 class Settling(Protocol):
     """What a model may be besides: one with corrections of its own that depend on what is fitted."""
@@ -216,6 +220,14 @@ class Placing(Protocol):
 
     def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
         """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
+        ...
+
+    def places(self, values: Mapping[str, float]) -> Places:
+        """All that is placed beside the effects in ``values``."""
+        ...
+
+    def put(self, values: Mapping[str, float], places: Places) -> None:
+        """All that is placed beside the effects in ``values`` goes where ``places`` have it."""
         ...
 
     def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[Sequence[dict[str, float]], Sequence[int], Sequence[int]]:

@@ -1,6 +1,7 @@
 """Screening statistics, splines, closed forms and the choice of the next experiment."""
 
 import contextlib
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -232,3 +233,49 @@ def test_what_is_placed_beside_an_effect_is_placed_anew_when_its_fit_has_moved_o
     refits.renewed(Refit((candidate,), rough, 0.0, np.zeros(0), np.zeros((1, 1))))
     # The third was fitted from nearer than it is known.
     assert placed == [0.0, 0.5, 0.75]
+
+
+@pytest.mark.parametrize(("gained_by", "kept"), [("place", "there"), ("effect", "here")])
+def test_a_further_effect_that_gains_by_other_places_alone_is_none(monkeypatch, gained_by, kept):
+    """Where an input was locked has several optima: beside a further effect a search may find the better one, which is as good without it."""
+    candidates = [Candidate(name, name, (Parameter(name, "1", 0.0, -9.0, 9.0, 1.0),)) for name in "ab"]
+    places = {"a": "here"}
+
+    class Placed:
+        predictions = property(lambda self: self)
+
+        def active(self, values):
+            return {name: value for name, value in values.items() if value}
+
+        def places(self, values):
+            return "there" if "b" in values else places["a"]
+
+        def put(self, values, there):
+            places["a"] = there
+
+        def unplaced(self):
+            return [0]
+
+        placed_anew = otherwise = waves_on = unplaced
+
+    def fitted(space, fit, chosen):
+        return SimpleNamespace(chi2=1.0 if (gained_by, places["a"]) == ("place", "there") else 50.0, values=fit.values, residual=[]), np.zeros((1, 1))
+
+    def found(chosen, chi2, **values):
+        return Refit(chosen, FitStandIn(chi2, values), 0.0, np.zeros(0), np.zeros((1, 1)))
+
+    monkeypatch.setattr("discrepancy.inference.refit.refits.in_earnest", fitted)
+    monkeypatch.setattr("discrepancy.inference.refit.refits.finished", lambda space, chosen, fit, covariance: Refit(chosen, fit, 0.0, np.zeros(0), covariance))
+    refits = Refits(SimpleNamespace(predictions=Placed(), model=Placed()), candidates)
+    alone, joint = found((candidates[0],), 50.0, a=2.0), found(tuple(candidates), 1.0, a=2.1, b=1e-9)
+    refits.final_fits[frozenset("a")] = alone
+    better = refits.placed_as(alone, joint)
+    assert places["a"] == kept
+    assert (better.fit.chi2, better.fit.values) == ((1.0, {"a": 2.1}) if kept == "there" else (50.0, {"a": 2.0}))
+    assert refits.final_fits[frozenset("a")] is better
+
+
+@dataclass(frozen=True)
+class FitStandIn:
+    chi2: float
+    values: dict

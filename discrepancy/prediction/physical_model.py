@@ -1,9 +1,7 @@
 """The reducer's model of a campaign, as the statistics wants it (``problem.Model``)."""
 
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +9,10 @@ import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
 from discrepancy.campaign.model import Campaign
-from discrepancy.held_names import HELD
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
-from discrepancy.prediction.angle_zeros import angle_zeros, best_zeros
+from discrepancy.prediction.angle_zeros import angle_zeros
 from discrepancy.prediction.apart import apart
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.bench import Bench
@@ -23,7 +20,7 @@ from discrepancy.prediction.by_effects import Effects
 from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
-from discrepancy.prediction.conditions import LAG_SHARE, Values, angle_zero, angles_of, at_rest, distinct_conditions, identity
+from discrepancy.prediction.conditions import LAG_SHARE, Values, angles_of, at_rest, distinct_conditions, identity
 from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
 from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import Fineness
@@ -35,9 +32,10 @@ from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.placed_beside import PlacedBeside
 from discrepancy.prediction.stations import shared_stations
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
-from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop, is_unplaced
+from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Threads
@@ -64,7 +62,7 @@ class Asked:
     effects: Effects
 
 
-class PhysicalModel:
+class PhysicalModel(PlacedBeside):
     """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
     ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
@@ -152,62 +150,6 @@ class PhysicalModel:
             found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, in times that of the base model"))
         return found
 
-    def settle(self, values: Mapping[str, float]) -> bool:
-        """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
-        every = self.standing() | dict(values)
-        effects = self.cages.effects(every)
-        moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
-        moved.append(self.locked_waves.place(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)))
-        moved.append(self.place_unstated(effects, every))
-        return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
-
-    def place_unstated(self, effects: Effects, every: Mapping[str, float]) -> bool:
-        """Where inputs were locked of which nobody says it, looked for beside the ``effects`` of the values, else beside those of the model file."""
-        if not (effects or self.without_own):
-            return False
-        return self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects))
-
-    def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
-        """See ``problem.Placing``: zeros of angles, with the lag of the base model."""
-        every = self.standing() | {name: value for name, value in values.items() if name != LAG_SHARE}
-        left, found = best_zeros(self.bench, self.records, self.wave, self.for_record, every, list(self.zeros))
-        # The nearest of those that look alike.
-        return left, {name: zero + self.wave * round((self.zeros[name] - zero) / self.wave) for name, zero in found.items()}
-
-    def unplaced(self) -> list[int]:
-        """See ``problem.Placing``: loops of which nobody says where the input was locked, or whose places count from a zero that is found."""
-        return [i for i, record in enumerate(self.records) if is_unplaced(record) or self.locked_waves.counts(record)]
-
-    def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
-        """See ``problem.Placing``: inputs whose place was found are locked where the discs have changed places."""
-        every = self.standing() | dict(values)
-        return self.unstated_places.half_a_turn_on(self.cages.effects(every), every, partial(self.loop_at, every))
-
-    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int], list[int]]:
-        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; transmission errors tell, of each load one is enough.
-
-        What is fixed to the discs has turned with them by their share of a turn there, what is fixed to ring or carrier has not.
-        """
-        every, found = self.standing() | dict(values), []
-        for name, zero in self.zeros.items():
-            for k in range(1, self.discs):
-                further = every[name] + k * self.wave
-                there = {name: further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave}
-                turned = {direction: every[direction] + 2.0 * np.pi * k / self.discs for direction in directions}
-                found += [there, there | turned] if turned else [there]
-        errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and not r.held_out and angle_zero(r) in self.zeros]
-        few = {(angle_zero(self.records[i]), self.records[i].factors.get("load")): i for i in errors}
-        return found, sorted(few.values()), errors
-
-    def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
-        """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""
-        every = self.standing() | dict(values)
-        effects = self.cages.effects(every)
-        moved = any(found.are_elsewhere(effects, every) for found in (self.locked_places, self.lags))
-        if moved or self.locked_waves.are_elsewhere(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)):
-            return True
-        return self.unstated_places.are_elsewhere(effects, every, partial(self.loop_at, every))
-
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
         """See ``problem.Model``."""
         return self.shared(range(len(self.records)) if which is None else which, self.asked(values))
@@ -282,7 +224,7 @@ class PhysicalModel:
         """``one`` of values that are made ready; next to those ``beside`` by ``changes`` where there are such: to first order, or coarsely."""
         self.threads.check()
         curve = curve_of(measured)
-        record = self.placed(curve, asked, not rough)
+        record = self.placed(curve, asked.effects, asked.values, not rough)
         try:
             predicted = self.observed(record, self.own(record, asked), None if beside is None else self.own(record, beside), rough, changes)
         except RunFault as fault:
@@ -332,10 +274,6 @@ class PhysicalModel:
             self.shown[key] = found
         return found
 
-    def loop_of(self, values: Mapping[str, float]) -> Callable[[Record], Floats]:
-        """Loops [rad] roughly, as their records are placed."""
-        return lambda record: self.loop_at(values, record, None)
-
     def loop_at(self, values: Mapping[str, float], record: Record, place: float | None) -> Floats:
         """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the record has it, else as the mean over positions."""
         asked, record = self.asked(values), record if place is None else locked(record, place)
@@ -347,25 +285,10 @@ class PhysicalModel:
         without = {n: v for n, v in values.items() if n not in effects} if effects else {**values, **self.without_own}
         return self.one(record, values if which else without, True)
 
-    @contextmanager
-    def locked_as(self, values: Mapping[str, float], fitted: Mapping[str, float]) -> Iterator[None]:
-        """Inputs are locked where ``values`` have them, those of which nobody says it where they were found beside what was ``fitted``, for a while."""
-        every = self.standing() | dict(values)
-        effects, known = self.cages.effects(every), self.cages.effects(self.standing() | dict(fitted))
-        with self.locked_places.tried(effects, every), self.unstated_places.tried(effects, known):
-            yield
-
-    def placed(self, record: Record, asked: Asked, closely: bool = True) -> Record:
-        """The record, as if locked where that is with the effects that are on: ``closely`` by their own values, else as it was placed with such last."""
-        if record.quantity not in HELD:
-            return record
-        known = self.locked_waves.placed(self.locked_places.placed(record, asked.effects, asked.values if closely else None), asked.effects)
-        return self.unstated_places.placed(known, asked.effects, asked.values)
-
     def as_seen(self, record: Record, values: Mapping[str, float]) -> tuple[Record, dict[str, float]]:
         """``placed`` and ``for_record``."""
         asked = self.asked(values)
-        return self.placed(record, asked), self.own(record, asked)
+        return self.placed(record, asked.effects, asked.values), self.own(record, asked)
 
     def for_record(self, record: Record, values: Mapping[str, float]) -> dict[str, float]:
         """What a reducer knows of ``values``, with those of this record's mounting, condition or run under the plain name."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.problem import Cheaper, Glimpsing, Model, Settling
+from discrepancy.problem import Cheaper, Glimpsing, Model, Places, Placing, Settling
 from fmu_src.arrays import Floats
 
 # Of each thread its own: one searches while another settles what is reported.
@@ -98,6 +98,17 @@ class Predictions:
         """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten.  False if it has none."""
         if not (isinstance(self.model, Settling) and self.model.settle(self.active(values))):
             return False
+        self.forget(values)
+        return True
+
+    def put(self, values: Mapping[str, float], places: Places) -> None:
+        """Let the model place what it has beside the effects in ``values`` as it was elsewhere (``Placing``)."""
+        if isinstance(self.model, Placing):
+            self.model.put(self.active(values), places)
+            self.forget(values)
+
+    def forget(self, values: Mapping[str, float]) -> None:
+        """What was predicted with the effects in ``values``, beside which something was placed anew."""
         effects = self.effects(self.active(values))
         for store in (self.store, self.rough_store):
             # Other threads may add to them meanwhile.
@@ -107,7 +118,6 @@ class Predictions:
         for pair in list(self.beside_store):
             if self.effects(dict(pair[1])) | self.effects(dict(pair[2])) >= effects:
                 self.beside_store.pop(pair, None)
-        return True
 
     def unsettled(self, values: Mapping[str, float]) -> bool:
         """Whether what was found in ``settle`` is that of other values."""

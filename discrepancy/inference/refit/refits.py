@@ -75,7 +75,24 @@ class Refits:
         if other.fit.chi2 < known.fit.chi2 - BETTER:
             self.fitted[key] = other
             self.final_fits.pop(key, None)
-        return self.renewed(self.fitted[key])
+        alone = self.renewed(self.fitted[key])
+        return alone if alone.fit.chi2 < joint.fit.chi2 + BETTER else self.placed_as(alone, joint)
+
+    def placed_as(self, alone: Refit, joint: Refit) -> Refit:
+        """The fit of some effects of ``joint`` with all that is placed beside effects where it stands beside all of these, if it is better there: a further
+        effect may have gained by other places alone."""
+        model, predictions, key = self.space.model, self.space.predictions, frozenset(c.name for c in alone.candidates)
+        if not isinstance(model, Placing) or not model.unplaced():
+            return alone
+        before, there = (model.places(predictions.active(r.fit.values)) for r in (alone, joint))
+        start = {name: joint.fit.values[name] for name in alone.fit.values}
+        predictions.put(start, there)
+        other = finished(self.space, alone.candidates, *in_earnest(self.space, replace(alone.fit, values=start), alone.candidates))
+        if other.fit.chi2 > alone.fit.chi2 - BETTER:
+            predictions.put(start, before)
+            return alone
+        self.fitted[key] = self.final_fits[key] = other
+        return other
 
     def final(self, names: Sequence[str]) -> Refit:
         """The fit of the named effects as it is reported, wherever."""
