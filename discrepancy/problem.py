@@ -197,8 +197,8 @@ Places = tuple[Any, ...]
 class Settling(Protocol):
     """What a model may be besides: one with corrections of its own that depend on what is fitted."""
 
-    def settle(self, values: Mapping[str, float]) -> bool:
-        """Find the corrections for the effects that are on in ``values``; False if there are none."""
+    def settle(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> bool:
+        """Find the corrections for the effects that are on in ``values``, none that only records beside ``which`` need; False if there are none."""
         ...
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:

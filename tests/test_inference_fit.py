@@ -147,7 +147,7 @@ def test_what_a_model_corrects_for_itself_is_found_anew_once_the_nuisances_are_k
         def predict(self, values, which=None):
             return [self.at(values.get("zero", 0.0), self.believed) for _ in (range(2) if which is None else which)]
 
-        def settle(self, values):
+        def settle(self, values, which=None):
             self.believed = values.get("zero", 0.0)
             return True
 

@@ -5,7 +5,7 @@ rollers.  Found with the base model and kept as a correction.  An effect that ch
 own: found anew when the effect is fitted for good.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -60,16 +60,17 @@ class Cages:
         placed = self.ripples.get(self.effects(values)) or self.ripples.get(frozenset(), {})
         return placed.get(record.name)
 
-    def place(self, values: Mapping[str, float]) -> bool:
-        """Find the cages with ``values``; False if there is nothing to find them by."""
+    def place(self, values: Mapping[str, float], names: Collection[str] | None = None) -> bool:
+        """Find the cages with ``values``, of runs of these ``names`` alone where some are given; False if there is nothing to find them by."""
 
         def one(record: Record) -> Floats | None:
             seen, own = self.as_seen(record, values)
             # A mean over positions of the cranks is one over those of the cages.
             return self.found(seen, own) if tells(seen) else None
 
-        made = self.threads.told("placing the roller cages", one, self.records, lambda record: record.name)
-        found = {record.name: ripple for record, ripple in zip(self.records, made) if ripple is not None}
+        chosen = [record for record in self.records if names is None or record.name in names]
+        made = self.threads.told("placing the roller cages", one, chosen, lambda record: record.name)
+        found = {record.name: ripple for record, ripple in zip(chosen, made) if ripple is not None}
         self.ripples[self.effects(values)] = found
         return bool(found)
 

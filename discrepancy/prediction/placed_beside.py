@@ -55,14 +55,18 @@ class PlacedBeside:
         """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""
         raise NotImplementedError
 
-    def settle(self, values: Mapping[str, float]) -> bool:
+    def settle(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> bool:
         """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
-        every = self.standing() | dict(values)
+        every, names = self.standing() | dict(values), None if which is None else {self.records[i].name for i in which}
         effects = self.cages.effects(every)
-        moved = [found.place(effects, every) for found in (self.locked_places, self.lags)]
-        moved.append(self.locked_waves.place(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)))
-        moved.append(self.place_unstated(effects, every))
-        return (self.cages.place(every) if self.cages.ripples else False) or any(moved)
+        moved = [self.lags.place(effects, every)]
+        if which is None or any(self.records[i].quantity in HELD for i in which):
+            moved.append(self.locked_places.place(effects, every))
+            moved.append(self.locked_waves.place(effects, self.loop_of(every), lambda record: self.locked_places.placed(record, effects)))
+        # Dear, and of no use to others.
+        if which is None or any(is_unplaced(self.records[i]) for i in which):
+            moved.append(self.place_unstated(effects, every))
+        return (self.cages.place(every, names) if self.cages.ripples else False) or any(moved)
 
     def loop_of(self, values: Mapping[str, float]) -> Callable[[Record], Floats]:
         """Loops [rad] roughly, as their records are placed."""

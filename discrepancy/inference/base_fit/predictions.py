@@ -94,9 +94,10 @@ class Predictions:
             return self.model.glimpse(self.active(values), self.active(base), which, first_order)
         return np.concatenate(self.changes(values, base, which, first_order))
 
-    def settle(self, values: Mapping[str, float]) -> bool:
-        """Let the model find its own corrections for the effects in ``values``; what was predicted with others is forgotten.  False if it has none."""
-        if not (isinstance(self.model, Settling) and self.model.settle(self.active(values))):
+    def settle(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> bool:
+        """Let the model find its own corrections for the effects in ``values``, for the records ``which`` alone where only these are looked at; what was
+        predicted with others is forgotten.  False if it has none."""
+        if not (isinstance(self.model, Settling) and self.model.settle(self.active(values), which)):
             return False
         self.forget(values)
         return True

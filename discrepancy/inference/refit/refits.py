@@ -132,7 +132,7 @@ class Refits:
         # A wrong zero has bent the effects: each is tried with those that suit it.
         begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in ({}, *places)]
         for fit in begun:
-            predictions.settle(fit.values)
+            predictions.settle(fit.values, telling)
             left.append(left_by(every, fit))
         best = int(np.argmin(left))
         return result if left[best] > left[0] - SURELY else replace(result, fit=begun[best])
