@@ -192,6 +192,12 @@ def test_a_position_that_nobody_says_is_asked_with_the_command_that_says_it(tmp_
     assert "--condition caldo:locked_at=...: put what it is in place of the dots, as in locked_at=90 deg" in capsys.readouterr().err
     assert main([*command[1:-1], "caldo:locked_at=mean"]) == 0
     assert "not sure" not in capsys.readouterr().out
+    # Of a folder's files, as a shell lists them, the folder; of some of them these.
+    files = sorted(map(str, folder.glob("*.csv")))
+    for given, told in ((files, [str(folder)]), (files[1:], files[1:])):
+        assert main(["campaign", "from", *given, "--reducer", "RV20E-121", "--angle-of", "output", "--overwrite"]) == 0
+        (command,) = (shlex.split(line) for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear campaign from"))
+        assert command[3 : command.index("--reducer")] == told
     # With the output locked there is nothing to ask.
     assert not propose([folder], Wishes("RV20E-121", tags={"locked": "output"}, angle_of="output")).doubts
 

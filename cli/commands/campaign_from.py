@@ -115,7 +115,7 @@ def run_from(options: argparse.Namespace) -> int:
 
 def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     """The command as it was given, to be completed by what is asked; names that could say a torque are asked to."""
-    words = ["rvwear", "campaign", "from", *options.files]
+    words = ["rvwear", "campaign", "from", *in_short(options.files)]
     for option in ("output", "reducer", "angle-of"):
         words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
     for option in ("names", "unit", "column", "scale", "counts", "quantity", "condition", "tag"):
@@ -124,6 +124,16 @@ def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
         words += ["--held-out", *options.held_out]
     needed = dict.fromkeys(match[0] for need in asked if (match := FIRST_OPTIONS.match(need.remedy)))
     return " ".join([shlex.join([*words, "--overwrite"]), *needed])
+
+
+def in_short(files: Sequence[str]) -> list[str]:
+    """``files`` as given; the folder where they are all that it holds, as a shell makes them of ``folder/*``."""
+    from discrepancy.campaign.measurement_files import measurement_files
+
+    folders = {Path(file).parent for file in files}
+    if len(files) == 1 or len(folders) != 1 or {Path(file) for file in files} != set(measurement_files(folder := folders.pop())):
+        return list(files)
+    return [str(folder)]
 
 
 def asked(options: argparse.Namespace) -> str | None:
