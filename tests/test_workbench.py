@@ -180,7 +180,7 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     assert [d.get("cell") for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == [["single", "locked_at"]]
     save(folder)
     (finding,) = (f for f in view(folder)["findings"] if question in f["text"])
-    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
+    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "'locked at' of the condition under In" in finding["remedy"] and "--" not in finding["remedy"]
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"single:locked_at": "40 deg"}})
     save(folder)
     found = view(folder)
@@ -360,9 +360,10 @@ def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
     campaign = SimpleNamespace(records=loops)
     of_warm, of_all, angle = f"loops in warm: {QUESTION}; state it", f"2 loops: {QUESTION}.", f"it lags hardly; state {OF_INPUT}"
     cells = cells_of([of_warm, of_all, angle, "the noise is large"], campaign)  # type: ignore[arg-type]
-    assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], angle: ["angle"]}
+    told = "it lags hardly; choose 'the input, over the ratio' as 'angle of' under In"
+    assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], told: ["angle"]}
     # An effect that is missing lets an angle look like another's: before a diagnosis the way leads there.
-    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], angle: ["diagnose"]}  # type: ignore[arg-type]
+    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], told: ["diagnose"]}  # type: ignore[arg-type]
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):

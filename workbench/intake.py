@@ -197,6 +197,7 @@ def view(folder: Folder) -> dict[str, Any]:
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     for told, doubt in zip(found["proposal"]["doubts"], proposal.doubts):
+        told["text"] = on_page(told["text"])
         if doubt in proposal.unplaced:
             told["cell"] = [doubt.place.split(", ")[0], LOCKED_AT]
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
-from workbench.doubts import apart, cells_of
+from workbench.doubts import apart, cells_of, in_page_words
 from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
@@ -118,9 +118,10 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         variant_text,
     )
 
-    page = page_data(page_of(answer))
-    cells = cells_of(page["warnings"], answer.model.campaign)
-    doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
+    content = page_of(answer)
+    page = page_data(content)
+    cells = cells_of(content.warnings, answer.model.campaign)
+    doubts, page["warnings"] = apart(content.warnings, answer.model.campaign)
     effects = []
     for effect in answer.effects:
         effects.append({
@@ -134,7 +135,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,
-        "untold": [f"{text[0].upper()}{text[1:]}." for text in answer.untold],
+        "untold": [on_page(f"{text[0].upper()}{text[1:]}.") for text in answer.untold],
         "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),
@@ -171,7 +172,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
     with task("looking for the next experiment"):
         run = next_run(*inputs(folder, given), jobs=jobs)
         report(run, place)
-    asked = [{key: with_titles(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
+    asked = [{key: in_page_words(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
     cells = cells_of([one.why for one in run.asked], run.answer.model.campaign)
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
