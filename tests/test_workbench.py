@@ -340,13 +340,14 @@ def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypat
     from workbench import steps
 
     folder, made = opened(tmp_path / "b"), 1.7e9
-    monkeypatch.setattr(steps, "inputs", lambda *_: (None, None))
+    monkeypatch.setattr(steps, "inputs", lambda *_: (None, SimpleNamespace(folder=folder.root)))
     monkeypatch.setattr(steps, "report", lambda *_: None)
     monkeypatch.setattr(steps, "answer_data", lambda _: {})
-    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made, profiles={}))
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made, made_in="/first", profiles={}))
     for found in (made, None):
         steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
-        assert json.loads((tmp_path / "result.json").read_text())["found"] == found
+        told = json.loads((tmp_path / "result.json").read_text())
+        assert told["found"] == found and told["found_in"] == "/first"
         made = time.time() + 60.0
 
 

@@ -1,6 +1,7 @@
 """Lines of campaign.toml that a text asks for, as what is typed, chosen or ticked under In: who works on the page writes no file."""
 
 import re
+from functools import partial
 
 # What In has no field for keeps its line, and says so.
 NO_FIELD = r"write \g<line> into campaign.toml,\g<where>, as In has no field for it"
@@ -39,11 +40,10 @@ PATTERNS = [(re.compile(pattern), told) for pattern, told in LINES]
 def in_fields(text: str) -> str:
     """``text`` with what is done under In in place of each line of campaign.toml."""
     for pattern, told in PATTERNS:
-        text = pattern.sub(lambda found, told=told: with_labels(found, told), text)
+        text = pattern.sub(partial(with_labels, told), text)
     return text
 
 
-def with_labels(found: re.Match[str], told: str) -> str:
+def with_labels(told: str, found: re.Match[str]) -> str:
     """Keys as the labels of their fields: "load torque"."""
-    keys = found.groupdict().get("keys")
-    return found.expand(told.replace(r"\g<keys>", keys.replace("_", " ")) if keys else told)
+    return found.expand(told.replace(r"\g<keys>", found.groupdict().get("keys", "").replace("_", " ")))

@@ -77,8 +77,8 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
 
 
 def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970]."""
-    from discrepancy.remembered import diagnosed, with_profiles
+    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970], ``found_in`` from which other folder."""
+    from discrepancy.remembered import diagnosed, elsewhere, with_profiles
     from discrepancy.verdict import AnswerSoFar
 
     stopped, began = False, time.time()
@@ -92,7 +92,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
     with task(PAGE_OF_FOUND if found else "drawing the page"):
         with with_profiles(answer, file, campaign):
             report(answer, place)
-        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found}
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found,
+                 "found_in": elsewhere(answer, campaign)}  # fmt: skip
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
