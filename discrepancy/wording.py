@@ -45,12 +45,15 @@ def fitted_together(answer: Answer) -> bool:
 
 
 def percent(answer: Answer, share: float) -> str:
-    """An effect that is significant takes something, however small; what leaves something is never said to take all."""
-    if share < 0.005:
-        return "less than 1 %"
+    """What leaves something is never said to take all."""
     if answer.verdict in LEAVES and share >= NEARLY_ALL:
         return f"{math.floor(1e4 * share) / 100.0:.2f} %" if share < ALL_BUT_ALL else "over 99.99 %"
-    return f"{100.0 * share:.0f} %"
+    return percent_of_misfit(share)
+
+
+def percent_of_misfit(share: float) -> str:
+    """What is significant is not nothing, however little of all misfit it is."""
+    return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
 
 
 def shares_text(answer: Answer, effect: dict[str, Any]) -> str:

@@ -434,10 +434,10 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     found = replace(found, diagnosis=left)
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
-    assert "runout alone it takes away 93 % of the misfit; added to the others, less than 1 % more of it" in told
+    assert "runout alone it takes away 93 % of the misfit; added to the others, < 1 % more of it" in told
     assert told.count("error on unused conditions") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)
     bars = figure(page, "shares")["data"]
-    assert [t["name"] for t in bars] == ["alone", "added to the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "less than 1 %"
+    assert [t["name"] for t in bars] == ["alone", "added to the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "< 1 %"
     assert len(figure(page, "held_out")["data"][0]["y"]) == 1 and "8009" not in page

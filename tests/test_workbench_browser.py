@@ -682,7 +682,7 @@ def test_what_is_significant_is_no_share_of_nothing(bench):
       const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, p: 8e-7, why: null });
       return [...fails({ signals: [], places: [place(0.94), place(0.002)] }, {}).querySelectorAll('td.num')].map((cell) => cell.textContent);
     }""")
-    assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
+    assert found == ["94 %, p = 8e-7", "< 1 %, p = 8e-7"]
 
 
 def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):
