@@ -68,6 +68,23 @@ def test_the_printed_command_writes_what_the_page_saves(tmp_path, capsys):
     assert folder.campaign.read_text(encoding="utf-8") == found["text"] and len(found["proposal"]["runs"]) == 2
 
 
+@pytest.mark.parametrize("reducer", [None, "RV20E-121"])
+def test_a_copy_is_told_before_anything_is_saved(tmp_path, reducer):
+    """The check of the saved campaign alone told it."""
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    torque = np.concatenate([np.linspace(0.0, 100.0, 30), np.linspace(100.0, -100.0, 60), np.linspace(-100.0, 0.0, 30)])
+    for k, noise in ((1, 0.0), (2, 0.0), (3, 0.01)):
+        turning = 0.01 * torque + noise * np.sin(np.arange(len(torque)))
+        rows = "\n".join(f"{t:.4f},{y:.6f}" for t, y in zip(torque, turning))
+        folder.new_file(f"loop_20degC_{k}.csv", f"torque [N.m],turning [arcmin]\n{rows}\n".encode())
+    wish(folder, {"reducer": reducer, "tags": {"locked": "input"}})
+    assert view(folder)["copied"] == {
+        "loop_20degC_2.csv": "it holds the same numbers as loop_20degC_1.csv: a copy is no repetition, it counts once and says nothing of the noise"
+    }
+
+
 def test_a_file_that_cannot_be_read_takes_nothing_from_the_others(tmp_path, capsys):
     from workbench.intake import wish
 

@@ -19,6 +19,7 @@ from discrepancy.campaign.guess.write import campaign_text, checked, name_of, wr
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, keys_that_matter, roles_of
+from discrepancy.campaign.repetition_words import COPY
 from discrepancy.campaign.unplaced import CODE, unplaced, unplaced_in
 from discrepancy.held_names import LOCKED_AT
 from fmu_src.faults import InputFault
@@ -180,7 +181,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found: dict[str, Any] = {
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
-        "unread": {}, "doubts": [],
+        "unread": {}, "doubts": [], "copied": {},
     }  # fmt: skip
     if found["saved"]:
         found |= checked_campaign(folder) | cells_of(folder)
@@ -203,7 +204,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
-    found["doubts"] = doubts_of(proposal)
+    found |= of_numbers(folder, proposal)
     used = {run.guessed.name.pattern for run in proposal.runs}
     found["command"] = command(folder, made, replace(made.wishes, names=tuple(n for n in made.wishes.names if n in used)))
     return found
@@ -230,14 +231,16 @@ def checked_campaign(folder: Folder) -> dict[str, Any]:
     }
 
 
-def doubts_of(proposal: Proposal) -> list[dict[str, Any]]:
-    """Of angles, as the proposal would be read; none before it is known of which reducer, and where it cannot be read, which saving says."""
-    if not proposal.reducer:
-        return []
+def of_numbers(folder: Folder, proposal: Proposal) -> dict[str, Any]:
+    """As the proposal would be read: ``doubts`` of angles once it is known of which reducer, and files that are ``copied``, each with what is wrong with it;
+    neither where it cannot be read, which saving says."""
     try:
-        return doubts(checked(proposal))
+        campaign = checked(proposal)
     except InputFault:
-        return []
+        return {}
+    places = {run.name: run.guessed.path.relative_to(folder.root).as_posix() for run in proposal.runs}
+    copied = {places[copy]: f"it holds the same numbers as {places[of]}: {COPY}" for copy, of in campaign.copies.items() if places[copy] != places[of]}
+    return {"doubts": doubts(campaign) if proposal.reducer else [], "copied": copied}
 
 
 @dataclass(frozen=True)
