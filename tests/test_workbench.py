@@ -220,6 +220,23 @@ def test_units_of_a_condition_are_read_or_refused_where_they_were_typed(tmp_path
         assert "--" not in str(fault.value) and view(folder)["wishes"] == given
 
 
+@pytest.mark.parametrize(("text", "rpm"), [("750 giri", 750.0), ("15 U", 15.0), ("1500,5 tours", 1500.5), ("750 giri/min", 750.0)])
+def test_turns_in_the_field_of_a_speed_are_those_a_minute(tmp_path, text, rpm):
+    """As in names of files: "750giri" was read there and refused where it was typed."""
+    from discrepancy.campaign.load import load_campaign
+    from workbench.form import in_unit
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("torque_1.csv", b"speed [rpm],drag torque [N.m]\n" + b"\n".join(b"%d,%.3f" % (100 * k, 0.1 + 0.01 * k) for k in range(1, 30)))
+    assert in_unit(text, "rpm", "rated output speed") == pytest.approx(rpm)
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"input_speed": text.replace(",", ".")}})
+    save(folder)
+    stated = [c.factors.get("speed") for c in load_campaign(folder.root).conditions.values()]
+    assert any(speed == pytest.approx(rpm * np.pi / 30.0) for speed in stated), view(folder)["text"]
+
+
 def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_at_once(tmp_path, capsys):
     """The factor survives saving, and the page's command writes the same; a factor in a unit is none."""
     from workbench.intake import wish

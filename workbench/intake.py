@@ -28,7 +28,7 @@ from reducers.library import available, named_in
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
-from workbench.form import exactly, factor, number
+from workbench.form import exactly, factor, number, with_minute
 from workbench.page_words import on_page
 
 # Points of the little curve that shows what a column looks like, and columns of a file that are shown.
@@ -62,6 +62,7 @@ def wishes_of(given: Mapping[str, Any]) -> Wishes:
     texts = {}
     for key in ("units", "columns", "quantities", "conditions", "tags"):
         texts[key] = {str(name): str(value) for name, value in mapping(given, key).items() if str(value).strip()}
+    texts["conditions"] = {name: with_minute(text) if name.endswith("_speed") else text for name, text in texts["conditions"].items()}
     counts = {str(column): number(steps, f"counts of {column}") for column, steps in mapping(given, "counts").items()}
     scales = {str(column): factor(text, f"scale of {column}") for column, text in mapping(given, "scales").items()}
     held = given.get("held_out")
