@@ -23,6 +23,7 @@ from discrepancy.intervals import UNDETERMINED
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
+from discrepancy.other_places import LookAlike, place_text
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.answer import headline
 from discrepancy.page.changed_figures import changed_figures
@@ -257,6 +258,16 @@ def test_diagnosis_of_one_effect(answer, tmp_path):
     assert max(effect["y"]) == pytest.approx(2e-5 * 50.0 / 167.0 / ARCSEC, rel=0.1) and len(load["traces"]) == len(response["data"])
     orders = figure(page, "response_orders_transmission_error")["data"][1]
     assert orders["x"][int(np.argmax(orders["y"]))] == "20"
+
+
+def test_parts_that_look_alike_are_counted_in_the_headline_and_named_below(answer, tmp_path):
+    """It had 40 words of four lobes and of the zero that leaves two of them open."""
+    others = [LookAlike("crank 2 at disc 2", False, None), LookAlike("crank 1 at disc 2", True, None), LookAlike("crank 2 at disc 1", True, None)]
+    for alike, said in ((others, "one of 3 places that look alike"), (others[1:2], "one that looks alike")):
+        place = place_text("crank 1 at disc 1", alike, 0.0785)
+        placed = replace(answer, effects=[answer.effects[0] | {"variant": "", "place": place, "other_places": [other.place for other in alike]}])
+        assert headline(placed) == f"The model lacks clearance (crank 1 at disc 1, or {said})."
+        assert f"clearance ({place})" in written(placed, tmp_path)
 
 
 def test_which_form_and_part_it_is_stands_in_the_headline_and_not_on_the_cards(answer):
