@@ -251,6 +251,7 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
 def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from discrepancy.named_reducer import named_reducer
     from studies import building
+    from studies.which_unit import which_to_take
 
     with task("building the FMUs"):
         built, packages = building.build_units(named_reducer(folder.model(given)), folder.root / "fmus")
@@ -258,7 +259,8 @@ def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) ->
     files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in paths if path.is_relative_to(folder.root)]
     name = str(given["model"])
     reducer, output = (shlex.quote(str(path)) for path in (folder.model(given), folder.root / "fmus"))
-    write_json(place / "result.json", {"files": files, "model": name, "command": f"rvwear build --reducer {reducer} --output {output}"})
+    take = which_to_take(Path("fmus"), [path.relative_to(folder.root) for path in paths if path.is_relative_to(folder.root)])
+    write_json(place / "result.json", {"files": files, "take": take, "model": name, "command": f"rvwear build --reducer {reducer} --output {output}"})
     return False
 
 
