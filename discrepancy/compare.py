@@ -221,7 +221,7 @@ def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if floating := floating_of(model.campaign):
         warnings.append(floating_text(floating))
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
-    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.records)]
+    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.campaign.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

@@ -54,6 +54,12 @@ def place_text(here: str, others: list[LookAlike], wave: float) -> str:
     return f"{alike}; {turned} if the zero of the output's angle is {further}" if turned else alike
 
 
+def shortened(place: str, others: int) -> str:
+    """Of ``place_text`` the place that was fitted, and how many ``others`` there are in place of their names."""
+    here = place.partition("; ")[0].partition(" or ")[0]
+    return f"{here}, or {f'one of {others} places that look alike' if others > 1 else 'one that looks alike'}" if others else place
+
+
 def place_of(candidate: str, model: object) -> str:
     """The part at which a candidate (``effect.variant``) was looked for: "crank 2 at disc 1"; empty for one that has no choice of parts."""
     effect = every_effect().get(effect_of(candidate))

@@ -44,7 +44,7 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     """The diagnosis, from before if there was one, which is told."""
     answer = remembered(file, campaign, settings, jobs)
     if answer is not None:
-        say(found_again(answer))
+        say(found_again(answer, campaign))
     else:
         place = place_of(file, campaign, settings)
         begun = place.with_suffix(".begun")
@@ -52,7 +52,7 @@ def diagnosed(file: ModelFile, campaign: Campaign, settings: Settings = Settings
         try:
             # The rest says nothing of how long the next one takes, nor the last one of the rest.
             with task(WHOLE, whole=True) if doctor is None else task("the rest of the diagnosis"):
-                answer = diagnose(file, campaign, settings, jobs=jobs, doctor=doctor)
+                answer = replace(diagnose(file, campaign, settings, jobs=jobs, doctor=doctor), made_in=place_told(campaign))
         except AnswerSoFar as stop:
             write(begun, stop.answer.doctor)
             raise
@@ -70,11 +70,23 @@ def with_profiles(answer: Answer, file: ModelFile, campaign: Campaign, settings:
         write(place, answer)
 
 
-def found_again(answer: Answer) -> str:
+def found_again(answer: Answer, campaign: Campaign) -> str:
     """That nothing was computed, or an answer at once would be taken for one of this moment."""
     made, spent = datetime.fromtimestamp(answer.made), duration(answer.diagnosis.seconds)
     when = f"{made.day} {made:%b %Y, %H:%M}"
-    return f"found again: the diagnosis of this model and these measurements, made {when} in {spent} of computing; none of it is computed anew"
+    folder = elsewhere(answer, campaign)
+    where = f", from the folder {folder} with the same files," if folder else ""
+    return f"found again: the diagnosis of this model and these measurements, made {when}{where} in {spent} of computing; none of it is computed anew"
+
+
+def elsewhere(answer: Answer, campaign: Campaign) -> str:
+    """The folder that a diagnosis was made from where that is another one than the campaign's; else empty."""
+    return answer.made_in if answer.made_in and answer.made_in != place_told(campaign) else ""
+
+
+def place_told(campaign: Campaign) -> str:
+    """The folder as it is told from elsewhere."""
+    return str(campaign.folder.resolve())
 
 
 def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Settings = Settings(), anyway: bool = False, jobs: int = 1,
@@ -89,7 +101,7 @@ def extended(file: ModelFile, campaign: Campaign, names: list[str], settings: Se
 
     known = remembered(file, campaign, settings, jobs)
     if known and not said:
-        say(found_again(known))
+        say(found_again(known, campaign))
     doctor = None if known else interrupted(file, campaign, settings, jobs) or beginning(file, campaign, settings, jobs)
     try:
         return extend(file, campaign, names, settings=settings, anyway=anyway, jobs=jobs, answer=known, doctor=doctor)

@@ -43,8 +43,9 @@ from fmu_src.threads import sharing_no_matrices
 @dataclass(frozen=True)
 class Answer:
     """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
-    ``made`` is when it was made [s since 1970]: one that is kept is found again later; ``profiles`` of fits by their name, once a page has drawn
-    them; ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them."""
+    ``made`` is when it was made [s since 1970], ``made_in`` the campaign's folder: one that is kept is found again later;
+    ``profiles`` of fits by their name, once a page has drawn them;
+    ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -57,6 +58,7 @@ class Answer:
     figures: list[KeyFigure]
     doctor: Diagnostician = field(repr=False)
     made: float = field(default_factory=time.time, compare=False)
+    made_in: str = field(default="", compare=False)
     untold: list[str] = field(default_factory=list)
     zeros: dict[str, float] = field(default_factory=dict)
     profiles: dict[str, list[Profile]] = field(default_factory=dict, repr=False, compare=False)

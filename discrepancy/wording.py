@@ -7,10 +7,11 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.campaign.amount import readable
 from discrepancy.extend import BETTER
+from discrepancy.held_signals import held_signals_text
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.intervals import interval_text
-from discrepancy.other_places import place_of
+from discrepancy.other_places import place_of, shortened
 from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
@@ -26,6 +27,12 @@ def variant_text(effect: dict[str, Any]) -> str:
     """Which form of an effect it is, and at which part; empty where there is but one."""
     forms = str(effect.get("variant", "")).replace("_", " ")
     return str(effect.get("place") or "") if " + " not in forms and effect.get("place") else forms
+
+
+def shortly(effect: dict[str, Any]) -> str:
+    """The same for a headline, which names no other parts that look alike: ``variant_text`` stands below it."""
+    variant = variant_text(effect)
+    return shortened(variant, len(effect.get("other_places", ()))) if variant == effect.get("place") else variant
 
 
 def signals_left(left: Mapping[str, float], title: Callable[[str], str] = str) -> str:
@@ -45,12 +52,15 @@ def fitted_together(answer: Answer) -> bool:
 
 
 def percent(answer: Answer, share: float) -> str:
-    """An effect that is significant takes something, however small; what leaves something is never said to take all."""
-    if share < 0.005:
-        return "less than 1 %"
+    """What leaves something is never said to take all."""
     if answer.verdict in LEAVES and share >= NEARLY_ALL:
         return f"{math.floor(1e4 * share) / 100.0:.2f} %" if share < ALL_BUT_ALL else "over 99.99 %"
-    return f"{100.0 * share:.0f} %"
+    return percent_of_misfit(share)
+
+
+def percent_of_misfit(share: float) -> str:
+    """What is significant is not nothing, however little of all misfit it is."""
+    return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
 
 
 def shares_text(answer: Answer, effect: dict[str, Any]) -> str:
@@ -170,16 +180,18 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
     change = f"{before:.2f} -> {after:.2f}"
     if not by_unused_runs(answer, effect):
         return f"{not_judged_text(answer)}; leaving out one condition at a time: error {change} times the noise"
+    records = answer.diagnosis.fits.space.records
+    of_signals = held_signals_text(records)
     if not below_noise(answer, effect):
-        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit (what the verdict counts)"
-    units = {r.quantity: r.unit for r in answer.diagnosis.fits.space.records}
+        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit (what the verdict counts){of_signals}"
+    units = {r.quantity: r.unit for r in records}
     rows = [
         f"{name}: {shown(row['before'], units[name.partition('[')[0]], name)}, noise {shown(row['floor'], units[name.partition('[')[0]], name)}"
         for name, row in judged(answer, effect)["rms"].items()
     ]
     return (
         f"on unused conditions the samples are off by less than their noise ({'; '.join(rows)}), so that these runs prove little; in the"
-        f" patterns that carry the misfit (what the verdict counts) {change}, with 1 for what noise leaves there"
+        f" patterns that carry the misfit (what the verdict counts) {change}, with 1 for what noise leaves there{of_signals}"
     )
 
 

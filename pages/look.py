@@ -99,7 +99,7 @@ def axis(title: str, **more: Any) -> Layout:
     return {
         "title": {"text": title, "font": {"size": 12, "color": QUIET}, "standoff": 8},
         "gridcolor": GRID, "linecolor": GRID, "zeroline": False, "ticks": "outside", "ticklen": 3,
-        "tickcolor": GRID, "tickfont": {"size": 11, "color": QUIET}, "automargin": True, "fixedrange": False,
+        "tickcolor": GRID, "tickfont": {"size": 11, "color": QUIET}, "exponentformat": "power", "automargin": True, "fixedrange": False,
     } | more  # fmt: skip
 
 

@@ -1,9 +1,12 @@
 "use strict";
-// Figures on a narrow card: names beside rows and bars fold, heads stand upright where they would lie over each other.
+// Figures on a narrow card: names beside rows and bars fold, heads stand upright where they would lie over each other, titles and
+// names of a legend fold where they would be cut.
 
 const NARROW = 520, LETTER = 6.2, LINE = 13;
 // Names have so much of a card's width; a map's row takes so much beside its lines.
 const SHARE = 0.32, MARGIN = 10;
+// What the line beside a name of the legend takes, with the edges.
+const KEY = 60;
 
 // Words of a name in lines of so many letters at most; what is one long word is cut where it has a sign.
 function folded(name, letters) {
@@ -44,8 +47,35 @@ function roomy(data, layout, wide) {
   return { xaxis: { ...layout.xaxis, range: [0, Math.max(high, ...ends)] } };
 }
 
+// Titles of axes in lines that their axis has room for.
+function titled(layout, width, height) {
+  const { l = 80, r = 80, t = 100, b = 80 } = layout.margin ?? {}, shown = { ...layout };
+  for (const key of Object.keys(layout).filter((name) => /^[xy]axis\d*$/.test(name) && layout[name]?.title?.text)) {
+    const axis = layout[key], [from, to] = axis.domain ?? [0, 1], upright = key[0] === "y";
+    const lines = folded(axis.title.text, Math.max(8, Math.floor(((upright ? height - t - b : width - l - r) * (to - from)) / LETTER)));
+    if (lines.length < 2) continue;
+    shown[key] = { ...axis, title: { ...axis.title, text: lines.join("<br>") } };
+    // An axis that takes no room by itself is given it.
+    if (axis.automargin === false) shown.margin = { ...shown.margin, ...(upright ? { l: l + LINE * (lines.length - 1) } : { b: b + LINE * (lines.length - 1) }) };
+  }
+  return shown;
+}
+
+// Names of a legend that lies below, each in lines of the card's width: what is wider is cut.
+function keyed(data, layout, width) {
+  if (layout.legend?.orientation !== "h" || layout.showlegend === false) return data;
+  const letters = Math.floor((width - KEY) / LETTER);
+  return data.map((trace) => (trace.name?.length > letters ? { ...trace, name: folded(trace.name, letters).join("<br>") } : trace));
+}
+
 // What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
 function narrowed(figure, data, layout, width) {
+  const shown = byNames(figure, data, layout, width);
+  return width < NARROW ? { ...shown, data: keyed(shown.data, shown.layout, width), layout: titled(shown.layout, width, shown.height) } : shown;
+}
+
+// The same, where names stand beside rows or below bars.
+function byNames(figure, data, layout, width) {
   const bar = data.find((trace) => trace.type === "bar" && trace.orientation === "h");
   const map = data.find((trace) => trace.type === "heatmap" && named(trace.y));
   const names = [...new Set((bar ?? map)?.y ?? [])];

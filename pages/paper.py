@@ -36,7 +36,8 @@ STYLE = {
     "font.size": 7.5, "axes.labelsize": 7.5, "axes.titlesize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "axes.linewidth": 0.6,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
     "svg.fonttype": "path", "pdf.fonttype": 42, "svg.hashsalt": "rvwear",
-    "axes.spines.top": False, "axes.spines.right": False, "axes.formatter.useoffset": False, "grid.color": "#e4e9ee", "grid.linewidth": 0.5,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.formatter.useoffset": False, "axes.formatter.use_mathtext": True,
+    "grid.color": "#e4e9ee", "grid.linewidth": 0.5,
 }  # fmt: skip
 
 

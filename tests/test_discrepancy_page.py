@@ -23,6 +23,7 @@ from discrepancy.intervals import UNDETERMINED
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
+from discrepancy.other_places import LookAlike, place_text
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.answer import headline
 from discrepancy.page.changed_figures import changed_figures
@@ -259,6 +260,16 @@ def test_diagnosis_of_one_effect(answer, tmp_path):
     assert orders["x"][int(np.argmax(orders["y"]))] == "20"
 
 
+def test_parts_that_look_alike_are_counted_in_the_headline_and_named_below(answer, tmp_path):
+    """It had 40 words of four lobes and of the zero that leaves two of them open."""
+    others = [LookAlike("crank 2 at disc 2", False, None), LookAlike("crank 1 at disc 2", True, None), LookAlike("crank 2 at disc 1", True, None)]
+    for alike, said in ((others, "one of 3 places that look alike"), (others[1:2], "one that looks alike")):
+        place = place_text("crank 1 at disc 1", alike, 0.0785)
+        placed = replace(answer, effects=[answer.effects[0] | {"variant": "", "place": place, "other_places": [other.place for other in alike]}])
+        assert headline(placed) == f"The model lacks clearance (crank 1 at disc 1, or {said})."
+        assert f"clearance ({place})" in written(placed, tmp_path)
+
+
 def test_which_form_and_part_it_is_stands_in_the_headline_and_not_on_the_cards(answer):
     """It stood four times above the evidence."""
     from discrepancy.page.answer import cards
@@ -434,10 +445,10 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     found = replace(found, diagnosis=left)
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
-    assert "runout alone it takes away 93 % of the misfit; added to the others, less than 1 % more of it" in told
+    assert "runout alone it takes away 93 % of the misfit; added to the others, < 1 % more of it" in told
     assert told.count("error on unused conditions") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)
     bars = figure(page, "shares")["data"]
-    assert [t["name"] for t in bars] == ["alone", "added to the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "less than 1 %"
+    assert [t["name"] for t in bars] == ["alone", "added to the others"] and bars[0]["text"][0] == "93 %" and bars[1]["text"][0] == "< 1 %"
     assert len(figure(page, "held_out")["data"][0]["y"]) == 1 and "8009" not in page

@@ -260,7 +260,7 @@ def test_interrupted_after_the_diagnosis_what_is_kept_is_said(monkeypatch, capsy
     monkeypatch.setattr(extend, "extend", stop)
     # Before the base model is fitted there is nothing to keep.
     monkeypatch.setattr(remembered, "interrupted", lambda *given, **how: SimpleNamespace())
-    for known in (None, SimpleNamespace(made=0.0, diagnosis=SimpleNamespace(seconds=60.0))):
+    for known in (None, SimpleNamespace(made=0.0, made_in="", diagnosis=SimpleNamespace(seconds=60.0))):
         monkeypatch.setattr(remembered, "remembered", lambda *given, known=known, **how: known)
         assert main(["extend", "RV20E-121", "campaign", "--effect", "drag"]) == 130
     monkeypatch.setattr(choose, "drafts_of", lambda *given: ([SimpleNamespace(file=tmp_path / "drag.py", text="")], []))

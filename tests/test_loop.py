@@ -236,6 +236,7 @@ def test_what_is_computed_to_draw_a_diagnosis_is_kept_with_it(file, wide, diagno
     from discrepancy import remembered
     from discrepancy.page.write import page_of
 
+    wide = replace(wide, folder=tmp_path / "first")
     monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
     monkeypatch.setattr(remembered, "diagnose", lambda *arguments, **options: replace(diagnosed, profiles={}))
     heard = []
@@ -266,6 +267,7 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
 
     monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
     monkeypatch.setattr(remembered, "diagnose", lambda *arguments, **options: diagnosed)
+    wide = replace(wide, folder=tmp_path / "first")
     first = remembered.diagnosed(file, wide)
     assert len(list(tmp_path.iterdir())) == 1
 
@@ -280,6 +282,12 @@ def test_a_diagnosis_is_kept_and_gone_on_from(file, wide, diagnosed, tmp_path, m
     # An answer at once is no new one, and that is said.
     (said,) = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")]
     assert said.startswith("found again: the diagnosis of this model and these measurements, made ") and said.endswith(" of computing; none of it is computed anew")
+    assert " from the folder " not in said
+    # What is kept goes by contents: the same files in another folder have it too, and whoever never diagnosed there is told whose it is.
+    with told_to(screen):
+        remembered.diagnosed(file, replace(wide, folder=tmp_path / "copy"))
+    (elsewhere,) = [line for line in capsys.readouterr().err.splitlines() if not line.startswith("rvwear: ")]
+    assert f", from the folder {wide.folder.resolve()} with the same files, in " in elsewhere
     # So it is where an effect is added by name alone.
     monkeypatch.setattr("discrepancy.extend.extend", lambda *arguments, **options: options["answer"])
     for further, lines in (({}, [said]), ({"said": True}, [])):

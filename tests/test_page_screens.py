@@ -5,9 +5,11 @@ import re
 import shutil
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from discrepancy.page import bars, maps
+from pages.charts import Curve, chart
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.render import rendered_sections
@@ -104,3 +106,28 @@ def test_numbers_behind_bars_have_room_on_a_narrow_card(chromium, file):
     high = opened(chromium, file, 390, "light").evaluate("""() => [['3,880,000'], ['3']].map((text) => narrowed({ height: 100 },
         [{ type: 'bar', orientation: 'h', y: ['base (ring seat compliance)'], x: [100], text }], { xaxis: { range: [0, 125] }, yaxis: {}, margin: { r: 24 } }, 300).layout.xaxis.range[1])""")
     assert high[0] > 150 and high[1] == 125
+
+
+def test_titles_of_axes_and_names_of_a_legend_fold_on_a_narrow_card(chromium, file):
+    """They were cut at the edge of a telephone."""
+    told = opened(chromium, file, 390, "light").evaluate("""() => {
+        const axis = (text) => ({ title: { text } }), layout = { xaxis: axis('t [s]'), yaxis: { ...axis('share of the depth at the end, of all parts [%]'), automargin: false },
+          legend: { orientation: 'h' }, margin: { l: 60, r: 16, t: 10, b: 46 } };
+        const trace = { type: 'scatter', x: [0], y: [0], name: 'lobes of the cranks at disc 1, up to 6.00 µm (drawn 500 times)' };
+        return [330, 900].map((width) => { const { data, layout: shown } = narrowed({ height: 220 }, [trace], layout, width);
+          return [shown.xaxis.title.text, shown.yaxis.title.text, shown.margin.l, data[0].name]; }); }""")
+    assert told[0] == ["t [s]", "share of the depth at the<br>end, of all parts [%]", 73, "lobes of the cranks at disc 1, up to 6.00<br>µm (drawn 500 times)"]
+    assert "<br>" not in told[1][1] + told[1][3] and told[1][2] == 60
+
+
+def test_ticks_of_small_numbers_have_a_power_with_its_factor(chromium, file):
+    """"5e-09" stood at an axis."""
+    curve = Curve("c", np.array([0.0, 1.0]), np.array([0.0, 8e-9]))
+    place = file.with_name("small.html")
+    figure = chart("small", "T", "c", [curve], "x", "y")
+    place.write_text(rendered_sections(Page("k", "t", "", "", [], [Section("s", "S", "", [figure], [])], [])), encoding="utf-8")
+    page = chromium.new_page(viewport={"width": 1280, "height": 900})
+    page.goto(place.as_uri())
+    page.wait_for_selector("#plot-small .ytick text")
+    texts = page.evaluate("[...document.querySelectorAll('#plot-small .ytick text')].map((e) => e.textContent)")
+    assert any("×10" in text and "−9" in text for text in texts) and not any("e" in text or "n" in text for text in texts), texts

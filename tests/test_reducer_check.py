@@ -144,3 +144,20 @@ def test_a_decimal_comma_in_quotes_and_a_file_that_is_not_there_are_told(tmp_pat
         load_reducer(path)
     with pytest.raises(InputFault, match=r"there is no file .*minne\.toml; did you mean mine\.toml\?"):
         load_reducer(tmp_path / "minne.toml")
+
+
+def test_a_completed_file_is_drawn_with_its_housing_as_when_it_was_made(tmp_path):
+    """It had lost it, and filled the frame otherwise."""
+    from reducers.completion.complete import complete
+    from reducers.completion.given import given_with
+    from studies.report.checked import parts
+    from studies.report.completed import page_of
+
+    given = given_with(ratio=105.3, pins=40, rated=500.0, diameter=230.0)
+    assert main(["reducer", "new", "--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--output", str(tmp_path / "a.toml"), "-q"]) == 0
+    reducer = load_reducer(tmp_path / "a.toml")
+    [made, _] = page_of(complete(given), reducer, []).sections[0].figures
+    [whole, _] = parts(check(reducer))
+    assert len(whole.data) == len(made.data) and whole.layout["xaxis"]["range"] == pytest.approx(made.layout["xaxis"]["range"])
+    # Nobody knows that of a file without one.
+    assert len(parts(check(load_reducer(MINE)))[0].data) == len(made.data) - 1

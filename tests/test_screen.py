@@ -132,6 +132,23 @@ def test_what_is_left_is_sized_signal_by_signal(capsys):
     assert left_sizes(answer_of(ONE, True)) == ""
 
 
+def test_unused_runs_say_of_which_signals_they_are_where_others_have_none():
+    """"Error on unused conditions" stood there of loops, beside transmission errors of which none was held out."""
+    answer = answer_of(ONE, True)
+    [effect] = answer.effects
+    assert "say nothing of" not in error_text(answer, effect)
+    for quantity in ("transmission_error", "transmission_order"):
+        answer.diagnosis.fits.space.records.append(SimpleNamespace(name=quantity, quantity=quantity, unit="rad", held_out=False))
+    told = "; these runs are of hysteresis alone and say nothing of transmission error"
+    assert error_text(answer, effect).endswith(told)
+    drowned = answer_of(ONE, True, rms={"hysteresis": {"before": 1e-6, "after": 1e-6, "floor": 1e-3}})
+    drowned.diagnosis.fits.space.records = answer.diagnosis.fits.space.records
+    assert "prove little" in error_text(drowned, effect) and error_text(drowned, effect).endswith(told)
+    # Orders are made of transmission errors: those that are held out are of both.
+    answer.diagnosis.fits.space.records[-1].held_out = True
+    assert "say nothing of" not in error_text(answer, effect)
+
+
 def test_forms_that_are_added_together_stand_each_with_its_values(capsys):
     """An oval and a scatter were one effect: their values stood under one name, or those of the scatter nowhere."""
     forms = {"disc_tooth_errors.oval_form": {"oval": 4e-6}, "disc_tooth_errors.scatter": {"scatter": 1e-6}, "play": {"gap": 1e-6}}

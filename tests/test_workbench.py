@@ -68,6 +68,23 @@ def test_the_printed_command_writes_what_the_page_saves(tmp_path, capsys):
     assert folder.campaign.read_text(encoding="utf-8") == found["text"] and len(found["proposal"]["runs"]) == 2
 
 
+@pytest.mark.parametrize("reducer", [None, "RV20E-121"])
+def test_a_copy_is_told_before_anything_is_saved(tmp_path, reducer):
+    """The check of the saved campaign alone told it."""
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    torque = np.concatenate([np.linspace(0.0, 100.0, 30), np.linspace(100.0, -100.0, 60), np.linspace(-100.0, 0.0, 30)])
+    for k, noise in ((1, 0.0), (2, 0.0), (3, 0.01)):
+        turning = 0.01 * torque + noise * np.sin(np.arange(len(torque)))
+        rows = "\n".join(f"{t:.4f},{y:.6f}" for t, y in zip(torque, turning))
+        folder.new_file(f"loop_20degC_{k}.csv", f"torque [N.m],turning [arcmin]\n{rows}\n".encode())
+    wish(folder, {"reducer": reducer, "tags": {"locked": "input"}})
+    assert view(folder)["copied"] == {
+        "loop_20degC_2.csv": "it holds the same numbers as loop_20degC_1.csv: a copy is no repetition, it counts once and says nothing of the noise"
+    }
+
+
 def test_a_file_that_cannot_be_read_takes_nothing_from_the_others(tmp_path, capsys):
     from workbench.intake import wish
 
@@ -180,7 +197,7 @@ def test_a_position_that_nobody_says_is_asked_before_and_after_saving(tmp_path):
     assert [d.get("cell") for d in view(folder)["proposal"]["doubts"] if question in d["text"]] == [["single", "locked_at"]]
     save(folder)
     (finding,) = (f for f in view(folder)["findings"] if question in f["text"])
-    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "locked_at" in finding["remedy"] and "--" not in finding["remedy"]
+    assert finding["cell"] == ["single", "locked_at"] and finding["text"].startswith("loops in single: ") and "'locked at' of the condition under In" in finding["remedy"] and "--" not in finding["remedy"]
     wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"single:locked_at": "40 deg"}})
     save(folder)
     found = view(folder)
@@ -201,6 +218,23 @@ def test_units_of_a_condition_are_read_or_refused_where_they_were_typed(tmp_path
         with pytest.raises(InputFault, match=said) as fault:
             wish(folder, {**given, "conditions": {"20degC:temperature": text}})
         assert "--" not in str(fault.value) and view(folder)["wishes"] == given
+
+
+@pytest.mark.parametrize(("text", "rpm"), [("750 giri", 750.0), ("15 U", 15.0), ("1500,5 tours", 1500.5), ("750 giri/min", 750.0)])
+def test_turns_in_the_field_of_a_speed_are_those_a_minute(tmp_path, text, rpm):
+    """As in names of files: "750giri" was read there and refused where it was typed."""
+    from discrepancy.campaign.load import load_campaign
+    from workbench.form import in_unit
+    from workbench.intake import wish
+
+    folder = opened(tmp_path / "b")
+    folder.new_file("torque_1.csv", b"speed [rpm],drag torque [N.m]\n" + b"\n".join(b"%d,%.3f" % (100 * k, 0.1 + 0.01 * k) for k in range(1, 30)))
+    assert in_unit(text, "rpm", "rated output speed") == pytest.approx(rpm)
+    folder.new_file("loop_20degC_1.csv", CSV.encode())
+    wish(folder, {"reducer": "RV20E-121", "tags": {"locked": "input"}, "conditions": {"input_speed": text.replace(",", ".")}})
+    save(folder)
+    stated = [c.factors.get("speed") for c in load_campaign(folder.root).conditions.values()]
+    assert any(speed == pytest.approx(rpm * np.pi / 30.0) for speed in stated), view(folder)["text"]
 
 
 def test_a_scale_is_said_of_a_column_and_a_unit_that_cannot_be_read_is_refused_at_once(tmp_path, capsys):
@@ -340,13 +374,14 @@ def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypat
     from workbench import steps
 
     folder, made = opened(tmp_path / "b"), 1.7e9
-    monkeypatch.setattr(steps, "inputs", lambda *_: (None, None))
+    monkeypatch.setattr(steps, "inputs", lambda *_: (None, SimpleNamespace(folder=folder.root)))
     monkeypatch.setattr(steps, "report", lambda *_: None)
     monkeypatch.setattr(steps, "answer_data", lambda _: {})
-    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made, profiles={}))
+    monkeypatch.setattr("discrepancy.remembered.diagnosed", lambda *_, jobs: SimpleNamespace(made=made, made_in="/first", profiles={}))
     for found in (made, None):
         steps.diagnose_step(folder, {"model": "RV20E-121"}, 1, tmp_path)
-        assert json.loads((tmp_path / "result.json").read_text())["found"] == found
+        told = json.loads((tmp_path / "result.json").read_text())
+        assert told["found"] == found and told["found_in"] == "/first"
         made = time.time() + 60.0
 
 
@@ -360,9 +395,10 @@ def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
     campaign = SimpleNamespace(records=loops)
     of_warm, of_all, angle = f"loops in warm: {QUESTION}; state it", f"2 loops: {QUESTION}.", f"it lags hardly; state {OF_INPUT}"
     cells = cells_of([of_warm, of_all, angle, "the noise is large"], campaign)  # type: ignore[arg-type]
-    assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], angle: ["angle"]}
+    told = "it lags hardly; choose 'the input, over the ratio' as 'angle of' under In"
+    assert cells == {of_warm: ["warm", "locked_at"], of_all: ["cold", "locked_at"], told: ["angle"]}
     # An effect that is missing lets an angle look like another's: before a diagnosis the way leads there.
-    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], angle: ["diagnose"]}  # type: ignore[arg-type]
+    assert cells_of([of_warm, angle], campaign, diagnosed=False) == {of_warm: ["warm", "locked_at"], told: ["diagnose"]}  # type: ignore[arg-type]
 
 
 def test_a_job_that_is_silent_is_gone(tmp_path):

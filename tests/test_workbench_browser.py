@@ -630,11 +630,11 @@ def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_eff
     answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank lobe errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
     folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
     folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
-    folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9})
+    folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9, "found_in": "/data/first"})
     bench.view("diagnose")
     head = bench.page.locator("#verdict p").first
     head.get_by_text("found again: made ").wait_for()
-    assert "Nov 2023" in head.inner_text() and head.inner_text().endswith("in 3 min of computing")
+    assert "Nov 2023" in head.inner_text() and head.inner_text().endswith(", from the folder /data/first with the same files, in 3 min of computing")
     assert bench.page.locator("#verdict").inner_text().count("crank 1 at disc 1") == 1
     folder.remember("jobs/diagnose/result", answer | {"found": None})
     bench.page.reload()
@@ -682,7 +682,7 @@ def test_what_is_significant_is_no_share_of_nothing(bench):
       const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, p: 8e-7, why: null });
       return [...fails({ signals: [], places: [place(0.94), place(0.002)] }, {}).querySelectorAll('td.num')].map((cell) => cell.textContent);
     }""")
-    assert found == ["94 %, p = 8e-7", "under 1 %, p = 8e-7"]
+    assert found == ["94 %, p = 8e-7", "< 1 %, p = 8e-7"]
 
 
 def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):

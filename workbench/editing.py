@@ -13,7 +13,7 @@ from discrepancy.held_names import HELD, LOCKED_AT
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from workbench.folder import Folder
-from workbench.form import factor
+from workbench.form import factor, with_minute
 
 # Of a condition what is one word; of a run's column what says how it is read.
 CONDITION = tuple(name for name in ConditionEntry.model_fields if name not in ("interventions", "notes"))
@@ -131,7 +131,7 @@ def fitting(before: Any, key: str, value: Any) -> Any:
         except ValueError:
             return text
         return int(number) if isinstance(before, int) and number.is_integer() else number
-    return text
+    return with_minute(text) if key.endswith("_speed") else text
 
 
 def parsed(content: bytes) -> Any:

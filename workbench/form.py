@@ -5,12 +5,16 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from discrepancy.campaign.amount import amount
+from discrepancy.campaign.guess.name_units import is_turns
 from fmu_src.faults import InputFault
 from orchestrator.settings import NUMBER
 
 if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
     from fmu_src.table import Table
+
+# In which speeds are typed.
+SPEED = "rpm"
 
 
 def number(value: Any, what: str) -> float:
@@ -27,8 +31,15 @@ def number(value: Any, what: str) -> float:
 def in_unit(value: Any, unit: str, what: str) -> float:
     """A number in ``unit``, alone or with a unit of its own as options of commands take it: 784, 0.784kNm."""
     text = str(value).strip().replace(",", ".")
+    text = with_minute(text) if unit == SPEED else text
     found = NUMBER.match(text)
     return amount(text, unit or "1", what) if found and found[2] else number(value, what)
+
+
+def with_minute(text: str) -> str:
+    """What stands in the field of a speed, turns as those a minute: 750 giri, as names of files say it."""
+    found = NUMBER.match(text.strip())
+    return f"{found[1]} {SPEED}" if found and found[2] and is_turns(found[2]) else text
 
 
 def whole(value: Any, what: str) -> int:

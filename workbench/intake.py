@@ -19,6 +19,7 @@ from discrepancy.campaign.guess.write import campaign_text, checked, name_of, wr
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, keys_that_matter, roles_of
+from discrepancy.campaign.repetition_words import COPY
 from discrepancy.campaign.unplaced import CODE, unplaced, unplaced_in
 from discrepancy.held_names import LOCKED_AT
 from fmu_src.faults import InputFault
@@ -27,7 +28,7 @@ from reducers.library import available, named_in
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
-from workbench.form import exactly, factor, number
+from workbench.form import exactly, factor, number, with_minute
 from workbench.page_words import on_page
 
 # Points of the little curve that shows what a column looks like, and columns of a file that are shown.
@@ -61,6 +62,7 @@ def wishes_of(given: Mapping[str, Any]) -> Wishes:
     texts = {}
     for key in ("units", "columns", "quantities", "conditions", "tags"):
         texts[key] = {str(name): str(value) for name, value in mapping(given, key).items() if str(value).strip()}
+    texts["conditions"] = {name: with_minute(text) if name.endswith("_speed") else text for name, text in texts["conditions"].items()}
     counts = {str(column): number(steps, f"counts of {column}") for column, steps in mapping(given, "counts").items()}
     scales = {str(column): factor(text, f"scale of {column}") for column, text in mapping(given, "scales").items()}
     held = given.get("held_out")
@@ -180,7 +182,7 @@ def view(folder: Folder) -> dict[str, Any]:
     found: dict[str, Any] = {
         "files": [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in files],
         "wishes": given, "saved": folder.campaign.is_file(), "own": written_here(folder), "models": folder.models(), "proposal": None, "fault": "", "gone": [],
-        "unread": {}, "doubts": [],
+        "unread": {}, "doubts": [], "copied": {},
     }  # fmt: skip
     if found["saved"]:
         found |= checked_campaign(folder) | cells_of(folder)
@@ -197,12 +199,13 @@ def view(folder: Folder) -> dict[str, Any]:
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     for told, doubt in zip(found["proposal"]["doubts"], proposal.doubts):
+        told["text"] = on_page(told["text"])
         if doubt in proposal.unplaced:
             told["cell"] = [doubt.place.split(", ")[0], LOCKED_AT]
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
     found["text"] = text_of(folder, proposal)
     found["same"] = found["saved"] and folder.campaign.read_text(encoding="utf-8") == found["text"]
-    found["doubts"] = doubts_of(proposal)
+    found |= of_numbers(folder, proposal)
     used = {run.guessed.name.pattern for run in proposal.runs}
     found["command"] = command(folder, made, replace(made.wishes, names=tuple(n for n in made.wishes.names if n in used)))
     return found
@@ -229,14 +232,16 @@ def checked_campaign(folder: Folder) -> dict[str, Any]:
     }
 
 
-def doubts_of(proposal: Proposal) -> list[dict[str, Any]]:
-    """Of angles, as the proposal would be read; none before it is known of which reducer, and where it cannot be read, which saving says."""
-    if not proposal.reducer:
-        return []
+def of_numbers(folder: Folder, proposal: Proposal) -> dict[str, Any]:
+    """As the proposal would be read: ``doubts`` of angles once it is known of which reducer, and files that are ``copied``, each with what is wrong with it;
+    neither where it cannot be read, which saving says."""
     try:
-        return doubts(checked(proposal))
+        campaign = checked(proposal)
     except InputFault:
-        return []
+        return {}
+    places = {run.name: run.guessed.path.relative_to(folder.root).as_posix() for run in proposal.runs}
+    copied = {places[copy]: f"it holds the same numbers as {places[of]}: {COPY}" for copy, of in campaign.copies.items() if places[copy] != places[of]}
+    return {"doubts": doubts(campaign) if proposal.reducer else [], "copied": copied}
 
 
 @dataclass(frozen=True)

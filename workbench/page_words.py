@@ -3,6 +3,8 @@
 import re
 from collections.abc import Mapping
 
+from workbench.file_words import in_fields
+
 # What does on the page what a command does; what nothing there does keeps its command.
 BUTTONS = {
     "next": "'Propose the next experiment'", "extend": "'Add it'", "compare": "Look", "diagnose": "Diagnose", "life": "Life",
@@ -17,7 +19,7 @@ SCALE = re.compile(r"with --scale (?P<quote>'?)(?P<column>.*?)=[\d.e+-]+(?P=quot
 
 def on_page(text: str, fields: Mapping[str, str] | None = None) -> str:
     """``fields`` are labels of the form by the options that they stand for."""
-    text = SCALE.sub(lambda m: f"typed under In as the scale of column {m['column']}, or", text)
+    text = in_fields(SCALE.sub(lambda m: f"typed under In as the scale of column {m['column']}, or", text))
     text = COMMAND.sub(lambda m: BUTTONS[m[1]], text)
     # A line to type has options of its own.
     return text if "rvwear " in text else OPTION.sub(lambda m: field(m, fields or {}), text)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
-from workbench.doubts import apart, cells_of
+from workbench.doubts import apart, cells_of, in_page_words
 from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
 from workbench.life_step import life
@@ -77,8 +77,8 @@ def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) 
 
 
 def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970]."""
-    from discrepancy.remembered import diagnosed, with_profiles
+    """What was known by then is an answer, too; ``found`` says when one was made that is found again [s since 1970], ``found_in`` from which other folder."""
+    from discrepancy.remembered import diagnosed, elsewhere, with_profiles
     from discrepancy.verdict import AnswerSoFar
 
     stopped, began = False, time.time()
@@ -92,7 +92,8 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
     with task(PAGE_OF_FOUND if found else "drawing the page"):
         with with_profiles(answer, file, campaign):
             report(answer, place)
-        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found}
+        about = {"model": str(given["model"]), "command": command(folder, given, "diagnose"), "begun": begun(folder, "diagnose"), "found": found,
+                 "found_in": elsewhere(answer, campaign)}  # fmt: skip
         write_json(place / "result.json", answer_data(answer) | about)
     return stopped
 
@@ -118,9 +119,10 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         variant_text,
     )
 
-    page = page_data(page_of(answer))
-    cells = cells_of(page["warnings"], answer.model.campaign)
-    doubts, page["warnings"] = apart(page["warnings"], answer.model.campaign)
+    content = page_of(answer)
+    page = page_data(content)
+    cells = cells_of(content.warnings, answer.model.campaign)
+    doubts, page["warnings"] = apart(content.warnings, answer.model.campaign)
     effects = []
     for effect in answer.effects:
         effects.append({
@@ -134,7 +136,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,
-        "untold": [f"{text[0].upper()}{text[1:]}." for text in answer.untold],
+        "untold": [on_page(f"{text[0].upper()}{text[1:]}.") for text in answer.untold],
         "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),
@@ -171,7 +173,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
     with task("looking for the next experiment"):
         run = next_run(*inputs(folder, given), jobs=jobs)
         report(run, place)
-    asked = [{key: with_titles(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
+    asked = [{key: in_page_words(value) if isinstance(value, str) else value for key, value in asdict(one).items()} for one in run.asked]
     cells = cells_of([one.why for one in run.asked], run.answer.model.campaign)
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
@@ -249,6 +251,7 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
 def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from discrepancy.named_reducer import named_reducer
     from studies import building
+    from studies.which_unit import which_to_take
 
     with task("building the FMUs"):
         built, packages = building.build_units(named_reducer(folder.model(given)), folder.root / "fmus")
@@ -256,7 +259,8 @@ def build_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) ->
     files = [{"name": path.relative_to(folder.root).as_posix(), "bytes": path.stat().st_size} for path in paths if path.is_relative_to(folder.root)]
     name = str(given["model"])
     reducer, output = (shlex.quote(str(path)) for path in (folder.model(given), folder.root / "fmus"))
-    write_json(place / "result.json", {"files": files, "model": name, "command": f"rvwear build --reducer {reducer} --output {output}"})
+    take = which_to_take(Path("fmus"), [path.relative_to(folder.root) for path in paths if path.is_relative_to(folder.root)])
+    write_json(place / "result.json", {"files": files, "take": take, "model": name, "command": f"rvwear build --reducer {reducer} --output {output}"})
     return False
 
 

@@ -17,7 +17,8 @@ from workbench.page_words import on_page
 def page_data(page: Page) -> dict[str, Any]:
     """The same content as the page's file has, in words of the workbench."""
     return {
-        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": on_page(page.finding), "warnings": page.warnings,
+        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": on_page(page.finding),
+        "warnings": [on_page(text) for text in page.warnings],
         "cards": [asdict(card) | {"note": on_page(card.note)} for card in page.cards],
         "sections": [
             {"id": s.id, "title": s.title, "lead": on_page(s.lead), "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}

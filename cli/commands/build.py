@@ -30,6 +30,7 @@ def build(options: argparse.Namespace) -> int:
     """``rvwear build``: FMUs of both units and of the unit of both, validated; those that are up to date stay."""
     from cli import screen
     from studies.building import Wanted, build_units
+    from studies.which_unit import which_to_take
 
     reducer = reducer_of(options.reducer)
     if options.worn is not None:
@@ -49,4 +50,6 @@ def build(options: argparse.Namespace) -> int:
             say_file(entry["fmu"], more=f"  {entry['flavour']}  {entry['bytes'] / 1e3:.0f} kB  {state}, validated")
         for package in packages:
             say_file(package, more="  plant and wear, connected")
+        for line in which_to_take(Path(options.output), [*(Path(entry["fmu"]) for entry in built), *packages]):
+            print(line)
     return 0

@@ -28,6 +28,7 @@ from discrepancy.wording import (
     error_text,
     fitted_together,
     left_text,
+    percent_of_misfit,
     shares_text,
     signals_left,
     stand_ins,
@@ -123,7 +124,7 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
     for name in ("signal", "what", "depends on", "of all misfit", "p"):
         table.add_column(name, justify="right" if name in ("of all misfit", "p") else "left")
     for g in findings[:LONGEST]:
-        table.add_row(g.signal, g.feature, g.dependence, f"{100 * g.share:.0f} %", f"{g.p:.1g}")
+        table.add_row(g.signal, g.feature, g.dependence, percent_of_misfit(g.share), f"{g.p:.1g}")
     out.print(table)
     if len(findings) > LONGEST:
         out.print(f"and {len(findings) - LONGEST} more: --json lists all")

@@ -10,6 +10,7 @@ from fmu_src.units import conversion
 WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
 # Sets of equal runs that are named.
 MOST_ALIKE = 4
+COPY = "a copy is no repetition, it counts once and says nothing of the noise"
 
 
 def words(found: Outlying) -> str:
@@ -32,6 +33,6 @@ def copied_words(copies: Mapping[str, str]) -> tuple[str, str]:
     alike = [" and ".join([original, *(copy for copy, of in copies.items() if of == original)]) for original in dict.fromkeys(copies.values())]
     some = "; ".join(alike[:MOST_ALIKE]) + (f"; and {len(alike) - MOST_ALIKE} more like them" if len(alike) > MOST_ALIKE else "")
     return (
-        f"runs {some} hold the same numbers: a copy is no repetition, it counts once and says nothing of the noise",
+        f"runs {some} hold the same numbers: {COPY}",
         'name the files of the repetitions, or measure again; if the instrument shows no finer, state noise = "..." in the runs',
     )

@@ -9,7 +9,7 @@ from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, 
 from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
 from discrepancy.page.amounts import effect_title, in_words, signal_title
-from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, named, recovered, rivals
+from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
@@ -69,8 +69,8 @@ def sentence(answer: Answer) -> str:
 
 
 def headline(answer: Answer) -> str:
-    """The verdict alone."""
-    names = [named(e) for e in answer.effects]
+    """The verdict alone; parts that look alike are named below it."""
+    names = [effect_title(e["name"]) + (f" ({variant})" if (variant := wording.shortly(e)) else "") for e in answer.effects]
     off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",

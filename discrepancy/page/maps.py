@@ -11,6 +11,7 @@ from discrepancy.inference.chance import chance
 from discrepancy.page.amounts import signal_title
 from discrepancy.page.runs import slug
 from discrepancy.page.whys import of_place
+from discrepancy.wording import percent_of_misfit
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
@@ -118,7 +119,8 @@ def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
     shown = sorted(places, key=lambda p: p["p"])[:MOST_ROWS]
     alike = len({p["dependence"] for p in places}) == 1
     rows = [
-        [signal_title(p["signal"]), told_feature(p, alike), percent(p["share"]) if p["p"] <= level else "", chance(p["p"]), "yes" if p["p"] <= level else "no"]
+        [signal_title(p["signal"]), told_feature(p, alike), percent_of_misfit(p["share"]) if p["p"] <= level else "", chance(p["p"]),
+         "yes" if p["p"] <= level else "no"]
         for p in shown
     ]
     only = f"with {places[0]['dependence'].replace('_', ' ')}" if alike else "that is significant"
@@ -145,7 +147,7 @@ def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) ->
         telling = [r for r in rows if any(at[r, c]["p"] <= level for c in columns if (r, c) in at)]
         dropped, rows = len(rows) - len(telling or rows[:MOST_ROWS]), telling or rows[:MOST_ROWS]
     z = np.array([[strength(at[r, c]["p"]) if (r, c) in at else math.nan for c in columns] for r in rows])
-    text = [[percent(at[r, c]["share"]) if (r, c) in at and at[r, c]["p"] <= level else "" for c in columns] for r in rows]
+    text = [[percent_of_misfit(at[r, c]["share"]) if (r, c) in at and at[r, c]["p"] <= level else "" for c in columns] for r in rows]
     hover = [[described(at.get((r, c)), level) for c in columns] for r in rows]
     labels = ["everywhere alike" if c == "everywhere" else f"with {c.replace('_', ' ')}" for c in columns]
     # Up to the level all is grey: only what is significant takes colour.
@@ -169,14 +171,10 @@ def strength(p: float) -> float:
     return min(-math.log10(max(p, 1e-300)), MOST_DIGITS)
 
 
-def percent(share: float) -> str:
-    return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"
-
-
 def described(place: Mapping[str, Any] | None, level: float) -> str:
     if place is None:
         return "not tested"
-    verdict = f"{percent(place['share'])} of all misfit" if place["p"] <= level else "not significant"
+    verdict = f"{percent_of_misfit(place['share'])} of all misfit" if place["p"] <= level else "not significant"
     return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {place['statistic']:.1f} against {place['width']} expected"
 
 

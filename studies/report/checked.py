@@ -3,14 +3,16 @@
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from reducers.checking import STATED, Check, Stated
+from reducers.completion.again import given_again
 from studies.report.assembly import assembly, zoom
 
 
 def parts(found: Check) -> list[Figure]:
-    """The whole and its most loaded tooth; nothing where no such reducer can be made."""
+    """The whole and its most loaded tooth; nothing where no such reducer can be made.  A completed file tells its housing by the ring that follows from it."""
     if found.faults:
         return []
-    whole = assembly(found.reducer, None)
+    given = given_again(found.reducer)
+    whole = assembly(found.reducer, given.diameter if given else None)
     return [whole, zoom(whole, found.reducer)]
 
 

@@ -16,6 +16,8 @@ DEPTH = 2e3
 # A cause is named for an order this close to it.
 NEAR = 0.6
 LARGEST = 12
+# Of a letter along a mark that stands upright [px].
+LETTER = 6.4
 
 
 @dataclass(frozen=True)
@@ -117,12 +119,13 @@ def stems(result: Result) -> Figure:
         marks.append(label | {"x": round(math.log10(place), 5), "textangle": -90, "yshift": 40 if high else 4})
         shapes.append(shape)
         before = place
+    above = max((mark["yshift"] + LETTER * len(mark["text"]) for mark in marks), default=0.0)
     picture = look.layout(
         xaxis=look.axis("order per output turn", type="log", range=[-0.05, round(math.log10(orders[-1] * 1.08), 4)],
                         tickvals=[1, 3, 10, 30, 100, 300, 1000, 3000], tickangle=0),
         yaxis=look.axis("amplitude [arcsec]", type="log", dtick=1, exponentformat="none",
                         range=[math.log10(floor), round(math.log10(top) + 0.15, 4)]),
-        shapes=shapes, annotations=marks, margin={"l": 62, "r": 20, "t": 84, "b": 46},
+        shapes=shapes, annotations=marks, margin={"l": 62, "r": 20, "t": max(84, round(above)), "b": 46},
     )  # fmt: skip
     return Figure("orders", "Orders of the transmission error at the input",
                   "Dotted: orders known from the counts and radii of the parts, named in the table; those of rollers"

@@ -227,6 +227,7 @@ export function ladder(bag) {
               built.files.map((f) => [f.name, `${Math.round(f.bytes / 1000).toLocaleString("en")} kB`]),
               [1],
             ),
+            (built.take ?? []).map((text) => h("p", { class: "quiet small" }, text)),
             command(built.command),
           ]
         : null,

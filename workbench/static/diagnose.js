@@ -19,7 +19,7 @@ const PAGE_OF_FOUND = "drawing the page of the diagnosis that was found again";
 function took(answer) {
   const spent = `${duration(answer.seconds)} of computing`;
   if (!answer.found) return spent;
-  return `found again: made ${new Date(1000 * answer.found).toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short" })} in ${spent}`;
+  return `found again: made ${new Date(1000 * answer.found).toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short" })}${answer.found_in ? `, from the folder ${answer.found_in} with the same files,` : ""} in ${spent}`;
 }
 
 export function show(root, context) {

@@ -4,7 +4,7 @@ import { choose, clear, command, h, note, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
 import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
-import { runs, unread } from "./in_runs.js";
+import { asides, runs } from "./in_runs.js";
 import { saveRow } from "./in_save.js";
 import { drop, get, post, put } from "./net.js";
 import { arrive, toCell } from "./to_cell.js";
@@ -186,7 +186,7 @@ export function show(root, context) {
           ]
         : null,
       data.gone.map((text) => note(text)),
-      data.proposal ? [unread(bag), questions(bag), runs(bag), conditions(bag), saveRow(bag), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
+      data.proposal ? [asides(bag), questions(bag), runs(bag), conditions(bag), saveRow(bag), data.same && data.cells ? runCells(data.cells, choices.quantities, correct) : null, findings(), textOf()] : files(),
     );
     judge();
     if (held) document.getElementById(held)?.focus();

@@ -10,20 +10,26 @@ import { drop } from "./net.js";
 const MOST_NAMED = 12;
 const COLUMNS = ["role", "column", "curve", "unit, scale", "why"];
 
-// Files that nothing could be made of: each with the reason, and a way out.
-export function unread({ data, context, faults, load }) {
-  const found = Object.entries(data.unread);
+// Files that nothing could be made of, and those that say nothing new: each with the reason, and a way out.
+const ASIDE = [
+  { key: "unread", one: "A file that cannot be read", many: "files that cannot be read", lead: "It has no part in the campaign; all others stay.", level: "bad" },
+  { key: "copied", one: "A copy among the files", many: "copies among the files", lead: "Name the files of the repetitions, or measure again; a copy may stay, for it is not counted.", level: "fair" },
+];
+export const asides = (bag) => ASIDE.map((kind) => aside(bag, kind));
+
+function aside({ data, context, faults, load }, { key, one, many, lead, level }) {
+  const found = Object.entries(data[key]);
   if (!found.length) return null;
   return h(
     "div",
-    { class: "panel", id: "unread" },
-    h("h2", { style: { "margin-top": 0 } }, found.length === 1 ? "A file that cannot be read" : `${found.length} files that cannot be read`),
-    h("p", { class: "quiet" }, "It has no part in the campaign; all others stay."),
+    { class: "panel", id: key },
+    h("h2", { style: { "margin-top": 0 } }, found.length === 1 ? one : `${found.length} ${many}`),
+    h("p", { class: "quiet" }, lead),
     table(
       ["file", "why", ""],
       found.map(([name, why]) => [
         h("b", {}, name),
-        h("span", { class: "bad" }, why),
+        h("span", { class: level }, why),
         h(
           "button",
           { type: "button", title: "put the file aside (.workbench/aside)", onclick: () => context.act(drop(`files/${encodeURIComponent(name)}`).then(load), faults) },

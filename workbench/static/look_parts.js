@@ -167,7 +167,7 @@ export function singles(signal) {
 const titleOf = (result, signal) => result.signals.find((s) => s.signal === signal)?.title ?? words(signal);
 
 // What is significant is not nothing, however little of all misfit it is.
-const percent = (share) => (share < 0.005 ? "under 1 %" : `${Math.round(100 * share)} %`);
+const percent = (share) => (share < 0.005 ? "< 1 %" : `${Math.round(100 * share)} %`);
 
 export const fails = (result, context) =>
   result.places.length

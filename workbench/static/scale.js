@@ -1,5 +1,7 @@
 // Axes and lines of plots as plain computation: ticks, ranges, and what of a long line a screen can show.
 
+import { number } from "./dom.js";
+
 export function ticks(low, high, wanted) {
   const span = high - low;
   if (!(span > 0) || !Number.isFinite(span)) return [];
@@ -14,7 +16,7 @@ export function ticks(low, high, wanted) {
 // As many decimals as tell the ticks apart.
 export function tickText(value, step) {
   const size = Math.max(Math.abs(value), step);
-  if (size >= 1e6 || (size < 1e-4 && size > 0)) return value === 0 ? "0" : value.toExponential(1).replace("e+", "e").replace("-", "−");
+  if (size >= 1e6 || (size < 1e-4 && size > 0)) return number(value, 3);
   const plain = step > 0 ? Math.max(0, Math.min(8, -Math.floor(Math.log10(step) + 1e-9))) : 0;
   const decimals = step > 0 && Math.abs(step * 10 ** plain - Math.round(step * 10 ** plain)) > 1e-6 ? plain + 1 : plain;
   return value.toFixed(decimals).replace("-", "−");
