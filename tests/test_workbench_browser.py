@@ -604,7 +604,7 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
       work.hidden = false;
       return [box.scrollWidth - box.clientWidth, getComputedStyle(box.querySelectorAll('td')[3], '::before').content, work.offsetHeight];
     }""")
-    assert cut[:2] == [0, '"after "'] and cut[2] < 42
+    assert cut[:2] == [0, '"after: "'] and cut[2] < 42
     lines = page.evaluate("""async () => {
       const { folded } = await import('./static/paint.js'), c = document.createElement('canvas').getContext('2d');
       const room = c.measureText('1500rpm_167N.').width, names = ['1500rpm_167N.m_warm', 'with_einlaufenderungeschmiert_2'];
