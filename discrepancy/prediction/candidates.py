@@ -52,7 +52,7 @@ def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[Effect
 
 def within_ring(p: Parameter, pins: int) -> Parameter:
     """A shape, the number of a pin with those of this ring as its bounds."""
-    return replace(p, upper=float(pins)) if p.name in PIN_NUMBERS else p
+    return replace(p, upper=float(pins), counts=True) if p.name in PIN_NUMBERS else p
 
 
 def shape_grid(shapes: Iterable[EffectParameter], pins: int) -> tuple[dict[str, float], ...]:
