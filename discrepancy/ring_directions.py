@@ -30,8 +30,7 @@ def ring_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float]
 
 
 def alike_text(pin: int, t: Topology) -> str:
-    """The pins that show the same as this one: discs stand in turn where another has stood."""
-    shares = math.gcd(t.pins, t.discs)
-    others = sorted((pin - 1 + k * t.pins // shares) % t.pins + 1 for k in range(1, shares))
+    """The pins that show the same as this one: those onto which it comes as the reducer is turned onto itself."""
+    others = sorted((pin - 1 + k * t.pins // t.ways) % t.pins + 1 for k in range(1, t.ways))
     first = (pin - 1) % t.pins + 1
-    return f"pin {first} shows the same as pin {' and pin '.join(map(str, others))}: the discs stand there in turn" if others else ""
+    return f"pin {first} shows the same as pin {' and pin '.join(map(str, others))}: turned there, the reducer looks as it does" if others else ""

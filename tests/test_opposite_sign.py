@@ -100,7 +100,7 @@ def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():
 def test_a_pin_is_told_with_those_that_look_alike_and_from_where_it_counts():
     effect = {"parameters": {"proud_pin": {"value": 5e-6}, "proud_pin_number": {"value": 10.996}}}
     alike, counted = ring_texts([effect], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
-    assert alike == "pin 11 shows the same as pin 31: the discs stand there in turn"
+    assert alike == "pin 11 shows the same as pin 31: turned there, the reducer looks as it does"
     assert counted.startswith("pins round the ring count from its pin 1") and counted.endswith("and the pin with it)")
     # Discs of which no turn brings one where another has stood, and nothing that says where angles count from.
     assert ring_texts([effect], {}, SimpleNamespace(reducer=SimpleNamespace(topology=replace(RV.topology, pins=41, lobes=40)))) == []

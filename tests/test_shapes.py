@@ -41,10 +41,10 @@ def test_shapes_of_an_effect_are_candidates_unless_they_are_held(monkeypatch):
     assert [point["lip_speed"] for point in found.shape_grid] == pytest.approx([10.0, 30.0, 90.0])
 
 
-@pytest.mark.parametrize(("pins", "discs", "count"), [(40, 2, 20), (41, 2, 41), (40, 1, 40)])
-def test_of_the_pins_that_may_be_proud_those_are_tried_that_show_another_curve(pins, discs, count):
+@pytest.mark.parametrize(("pins", "ways", "count"), [(40, 2, 20), (41, 1, 41)])
+def test_of_the_pins_that_may_be_proud_those_are_tried_that_show_another_curve(pins, ways, count):
     record = Record("a", "transmission_error", "rad", "a", 1, np.zeros(3), {"angle": np.arange(3.0)}, {})
-    (found,) = (c for c in candidates([record], {}, set(), ["1"], pins=pins, discs=discs) if c.name == "pin_position_errors.proud")
+    (found,) = (c for c in candidates([record], {}, set(), ["1"], pins=pins, ways=ways) if c.name == "pin_position_errors.proud")
     assert [point["proud_pin_number"] for point in found.shape_grid] == [float(k) for k in range(1, count + 1)]
     assert [(p.lower, p.upper) for p in found.shapes] == [(0.0, pins)]
 

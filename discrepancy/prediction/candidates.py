@@ -1,6 +1,5 @@
 """From the catalogue of effects to what the statistics may look for in a campaign."""
 
-import math
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import product
@@ -63,12 +62,13 @@ def shape_grid(shapes: Iterable[EffectParameter], pins: int) -> tuple[dict[str, 
 
 def candidates(
     records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0, cranks: int = 2,
-    pins: int = 40, discs: int = 2,
+    pins: int = 40, ways: int = 2,
 ) -> tuple[Candidate, ...]:
     """Every effect that the records can show and that is not among the nuisances.
 
     ``present`` are values that the model already has; an effect that is in it is not a
-    candidate again.  ``pins`` and ``discs``, which take turns at them, say which pins show another curve.
+    candidate again.  The reducer is turned onto itself in so many ``ways`` (``Topology``): of its ``pins`` those of one share
+    show another curve.
     """
     quantities = list(dict.fromkeys(r.quantity for r in records))
     there = {
@@ -108,7 +108,7 @@ def candidates(
                 f"{name}.{group.replace(' ', '_')}" if group else name, title,
                 tuple(parameter_of(p, float(p.variable.start)) for p in amplitudes),
                 tuple(within_ring(parameter_of(p, float(p.variable.start)), pins) for p in estimated),
-                shape_grid(estimated, pins // math.gcd(pins, discs)), seen, part,
+                shape_grid(estimated, pins // ways), seen, part,
             ))  # fmt: skip
     return tuple(found)
 

@@ -132,7 +132,7 @@ class PhysicalModel(PlacedBeside):
         mountings = sorted({r.mounting for r in self.records if r.quantity in (ERROR, ORDERS)})
         topology = model.reducer.topology
         self.candidates: tuple[Candidate, ...] = candidates(
-            self.records, present, excluded, mountings, topology.output_pins, topology.cranks, topology.pins, topology.discs,
+            self.records, present, excluded, mountings, topology.output_pins, topology.cranks, topology.pins, topology.ways,
         ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 
