@@ -164,7 +164,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
-        untold = origins_untold([*names, *answer.model.file.effects], campaign) + untold_parts(answer.effects)
+        untold = origins_untold(answer.effects, answer.model.file, campaign) + untold_parts(answer.effects)
         return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)

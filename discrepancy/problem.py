@@ -124,6 +124,7 @@ class Parameter:
     -1 where physics allows only values above or below ``off``, else 0.  ``prior`` is a
     standard deviation around ``off`` known from elsewhere (None: nothing is known).
     ``of_base``: what the base model itself gets wrong; where it is large, the base is off.
+    ``counts``: the number of a part; between two a fit may have optima of its own.
     """
 
     name: str
@@ -136,6 +137,7 @@ class Parameter:
     prior: float | None = None
     description: str = ""
     of_base: bool = False
+    counts: bool = False
 
     @property
     def is_direction(self) -> bool:

@@ -8,7 +8,6 @@ and what sits at the second disc has no candidate.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
-from math import gcd
 
 from discrepancy.model_file import every_effect
 from discrepancy.other_places import choices, current, effect_of, group_of, parts, siblings, words
@@ -83,7 +82,7 @@ def number_of(group: str) -> int | None:
 
 def turned(place: Place, names: Sequence[str], topology: Topology) -> Iterator[Place]:
     """Where a place comes to as the reducer is turned onto itself in all ways, itself included; ``names``: disc or crank, of what is chosen."""
-    ways = gcd(topology.discs, topology.cranks, topology.pins)
+    ways = topology.ways
     counts = {"disc": topology.discs, "crank": topology.cranks}
 
     def after(number: int, part: str, way: int) -> int:

@@ -177,8 +177,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
-    doubts += ring_texts(effects, fit.values) + sign_doubts(effects, found) + direction_doubts(effects, found, as_told.tables_of(model))
-    untold = origins_untold([*names, *model.file.effects], model.campaign)
+    doubts += ring_texts(effects, fit.values, model.file) + sign_doubts(effects, found)
+    doubts += direction_doubts(effects, found, as_told.tables_of(model))
+    untold = origins_untold(effects, model.file, model.campaign)
     warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
     return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros)

@@ -1,6 +1,7 @@
 """The counts that fix the sizes of a unit's arrays."""
 
 from dataclasses import dataclass
+from math import gcd
 
 from fmu_src.variables import Sizes
 
@@ -16,6 +17,11 @@ class Topology:
     rollers: int
     # Pins with rollers in holes of the discs; 0: the output goes through the cranks, as in an RV reducer.
     output_pins: int = 0
+
+    @property
+    def ways(self) -> int:
+        """In how many ways it is turned onto itself, by parts of a turn: discs, cranks and pins each onto others of their kind."""
+        return gcd(self.discs, self.cranks, self.pins)
 
     def sizes(self) -> Sizes:
         """The same by axis; arrays over output pins are never empty."""

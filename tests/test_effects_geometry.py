@@ -59,6 +59,12 @@ def test_pins_are_moved(rv20e, effect, radial, tangential):
 def test_single_parts_are_displaced(rv20e):
     t = rv20e.plant
     alike(t, {"proud_pin": 5 * UM, "proud_pin_number": 31}, with_one(t, "pin_radius_error", 30, 5 * UM), angle=0.0)
+    # Between two pins both, behind the last one the first.
+    shared = with_one(t, "pin_radius_error", 30, 3 * UM)["pin_radius_error"] + with_one(t, "pin_radius_error", 31, 2 * UM)["pin_radius_error"]
+    alike(t, {"proud_pin": 5 * UM, "proud_pin_number": 31.4}, {"pin_radius_error": shared}, angle=0.0)
+    ends = with_one(t, "pin_radius_error", PINS - 1, 4 * UM)["pin_radius_error"] + with_one(t, "pin_radius_error", 0, 1 * UM)["pin_radius_error"]
+    for number in (0.2, PINS + 0.2):
+        alike(t, {"proud_pin": 5 * UM, "proud_pin_number": number}, {"pin_radius_error": ends}, angle=0.0)
     alike(t, {"lobe_throw_error_1": 3 * UM, "lobe_error_disc": 2}, with_one(t, "crank_eccentricity_error", (1, 0), 3 * UM))
     alike(t, {"lobe_phase_error_2": 3e-3}, with_one(t, "crank_phase_error", (0, 1), 3e-3))
     alike(t, {"disc_hole_shift_2": 4 * UM, "disc_hole_disc": 2},

@@ -15,7 +15,7 @@ from discrepancy.inference.misfit.features import features
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
 from discrepancy.inference.noise.correlation import autoregression_of, trend_of
 from discrepancy.inference.refit.refit import Refit
-from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.refit.refits import Refits, beside
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.problem import Candidate, Parameter, Record
@@ -273,6 +273,12 @@ def test_a_further_effect_that_gains_by_other_places_alone_is_none(monkeypatch, 
     assert places["a"] == kept
     assert (better.fit.chi2, better.fit.values) == ((1.0, {"a": 2.1}) if kept == "there" else (50.0, {"a": 2.0}))
     assert refits.final_fits[frozenset("a")] is better
+
+
+def test_a_part_that_is_counted_is_tried_where_it_is_one():
+    """Between two pins a fit has optima of its own: 11.24 beside a wrong zero, where it is the twelfth."""
+    assert beside({"pin": 11.24, "play": 0.3}, ["pin"]) == [{"pin": 11.0}, {"pin": 12.0}]
+    assert beside({"play": 0.3}, []) == []
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ def model_of(records):
     bench = SimpleNamespace(rated_speed=190.0, rated_load=167.0)
     unstated = SimpleNamespace(taken=lambda effects, values: {})
     one = lambda record, values: np.full(len(record.values), 2e-6)
-    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=one, unstated_places=unstated, file=SimpleNamespace(effects={}))
+    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=one, unstated_places=unstated, file=SimpleNamespace(effects={}, values=dict))
 
 
 def space_of(records):
@@ -150,11 +150,16 @@ def test_what_one_effect_may_come_from_is_said():
     campaign = replace(CAMPAIGN, records=(error,), conditions={"c": SimpleNamespace(interventions=())})
     asked = "whether it is pin position errors, or ring ovality or clamping, this campaign does not tell"
     # First, for it is what is open.
-    said = proposal_for(answer_of(ONE, ["pin_position_errors"]), campaign).verdict
+    answer = answer_of(ONE, ["pin_position_errors"])
+    answer.effects.append({"parameters": {"pin_ring_ovality": {}}})
+    said = proposal_for(answer, campaign).verdict
     assert said.startswith(asked) and "turn the ring" in said
+    # A single pin is clamped by nobody.
+    answer.effects[:] = [{"parameters": {"proud_pin": {}}}]
+    assert asked not in proposal_for(answer, campaign).verdict
     # Once it stands in the model file nothing is missing, and the question is as open.
     answer = answer_of(NONE)
-    answer.model.file.effects["pin_position_errors"] = {}
+    answer.model.file.values = lambda: {"pin_ring_ovality": 5e-6}
     assert proposal_for(answer, campaign).verdict.startswith(asked)
 
 
@@ -170,11 +175,11 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     """"Nothing is left to separate" stood there while four lobes came into question."""
     answer = answer_of(verdict, ["crank_lobe_errors.crank_1"])
     four = "crank 1 at disc 1 or crank 2 at disc 2, which look alike"
-    answer.effects = [{"name": "crank_lobe_errors", "place": four, "other_places": ["crank 2 at disc 2"]}]
+    answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": four, "other_places": ["crank 2 at disc 2"]}]
     said = proposal_for(answer, CAMPAIGN).verdict
     assert f"at which part it is (crank lobe errors at {four}) no other run of these signals tells, for they are the same with each" in said
     assert "exchange one of them for that of another unit" in said
-    answer.effects = [{"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "other_places": []}]
+    answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": "crank 1 at disc 1", "other_places": []}]
     assert "no other run" not in proposal_for(answer, CAMPAIGN).verdict
 
 

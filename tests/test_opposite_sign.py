@@ -16,6 +16,7 @@ from discrepancy.ring_directions import ring_texts
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 
+RV = load_reducer("RV20E-121")
 FACTORS = {"speed": 209.44, "load": 167.0, "temperature": 293.15, "direction": 1.0}
 
 
@@ -90,6 +91,16 @@ def test_an_oval_is_the_same_half_a_turn_on(turning):
 
 def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():
     effect = {"parameters": {"pin_ring_runout": {}, "pin_ring_runout_angle": {"direction": True}}}
-    (text,) = ring_texts([effect], {"angle_zero[1]": 0.1, "pin_ring_runout": 5e-6})
+    (text,) = ring_texts([effect], {"angle_zero[1]": 0.1, "pin_ring_runout": 5e-6}, ModelFile(RV.name, RV))
     assert "count from its pin 1" in text and "crank 1 stands at 5.7 deg where mounting 1 shows angle 0" in text
-    assert not ring_texts([effect], {"pin_ring_runout": 5e-6}) and not ring_texts([{"parameters": {"disc_runout_angle": {"direction": True}}}], {"angle_zero[1]": 0.1})
+    of_discs = {"parameters": {"disc_runout_angle": {"direction": True}}}
+    assert not ring_texts([effect], {"pin_ring_runout": 5e-6}, ModelFile(RV.name, RV)) and not ring_texts([of_discs], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
+
+
+def test_a_pin_is_told_with_those_that_look_alike_and_from_where_it_counts():
+    effect = {"parameters": {"proud_pin": {"value": 5e-6}, "proud_pin_number": {"value": 10.996}}}
+    alike, counted = ring_texts([effect], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
+    assert alike == "pin 11 shows the same as pin 31: turned there, the reducer looks as it does"
+    assert counted.startswith("pins round the ring count from its pin 1") and counted.endswith("and the pin with it)")
+    # Discs of which no turn brings one where another has stood, and nothing that says where angles count from.
+    assert ring_texts([effect], {}, SimpleNamespace(reducer=SimpleNamespace(topology=replace(RV.topology, pins=41, lobes=40)))) == []

@@ -41,6 +41,14 @@ def test_shapes_of_an_effect_are_candidates_unless_they_are_held(monkeypatch):
     assert [point["lip_speed"] for point in found.shape_grid] == pytest.approx([10.0, 30.0, 90.0])
 
 
+@pytest.mark.parametrize(("pins", "ways", "count"), [(40, 2, 20), (41, 1, 41)])
+def test_of_the_pins_that_may_be_proud_those_are_tried_that_show_another_curve(pins, ways, count):
+    record = Record("a", "transmission_error", "rad", "a", 1, np.zeros(3), {"angle": np.arange(3.0)}, {})
+    (found,) = (c for c in candidates([record], {}, set(), ["1"], pins=pins, ways=ways) if c.name == "pin_position_errors.proud")
+    assert [point["proud_pin_number"] for point in found.shape_grid] == [float(k) for k in range(1, count + 1)]
+    assert [(p.lower, p.upper) for p in found.shapes] == [(0.0, pins)]
+
+
 def test_what_is_held_is_said_with_the_values_of_the_model():
     model = load_model("RV20E-121-rigid")
     assert held_text("drag", model) == "held, not fitted: effects.drag.churning_speed = 2000 rpm, effects.drag.viscosity_reference = 20 degC"

@@ -23,7 +23,8 @@ class Need:
 
 @dataclass(frozen=True)
 class Pair:
-    """Effects that are hard to separate; ``signals`` are the quantities in which both show.  ``within``: the one effect of the catalogue that both are."""
+    """Effects that are hard to separate; ``signals`` are the quantities in which both show.  ``within``: how the variables
+    begin that both are in the catalogue."""
 
     number: int
     effects: tuple[str, ...]
@@ -119,7 +120,7 @@ PAIRS = (
          ("hysteresis", "torsional_stiffness", "lost_motion"), ((WIDE_TORQUES,),)),
     Pair(8, ("pin position errors", "ring ovality or clamping"),
          "one output turn or more (better three), then turn the ring by some pins, or clamp it anew: pins go with it, what the housing does stays",
-         ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),), "pin_position_errors"),
+         ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),), "pin_ring_"),
     Pair(9, ("encoder eccentricity", "carrier run-out"), "turn the encoder on its shaft, or use two reading heads",
          ("transmission_error",), ((intervention("encoder_turned", "transmission_error"),), (TWO_MOUNTINGS,))),
     Pair(10, ("load-dependent wear exponent", "slip depending on load"), "wear at two loads, and the cage's speed",

@@ -1,6 +1,7 @@
 """From the catalogue of effects to what the statistics may look for in a campaign."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from itertools import product
 
 from discrepancy.effects import MODULES
@@ -14,9 +15,10 @@ SHOWN_BY = {
     "vibration": ("vibration", "vibration_order"), "debris": ("debris_iron",),
     "pin_on_disc": ("pin_on_disc_depth", "pin_on_disc_mass"), ERROR: (ERROR, ORDERS),
 }  # fmt: skip
-# Searched by hand only: which pin stands out is a search of its own; a constant moment on the flange shows as discs that are
-# misaligned with the ring, which stand for both.
-NOT_SEARCHED = {"proud", "constant moment"}
+# Searched by hand only: a constant moment on the flange shows as discs that are misaligned with the ring, which stand for both.
+NOT_SEARCHED = {"constant moment"}
+# Which pin it is: some of them look alike.
+PIN_NUMBERS = {"proud_pin_number"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
 PATTERNS = {"harmonics": (ERROR, ORDERS)}
 MOST_CRANKS = 3
@@ -47,18 +49,26 @@ def groups(effect: Effect) -> dict[str, tuple[list[EffectParameter], list[Effect
     return found
 
 
-def shape_grid(shapes: Iterable[EffectParameter]) -> tuple[dict[str, float], ...]:
-    searched = [p for p in shapes if p.grid]
-    return tuple(dict(zip((p.variable.name for p in searched), values)) for values in product(*(p.grid for p in searched)))
+def within_ring(p: Parameter, pins: int) -> Parameter:
+    """A shape, the number of a pin with those of this ring as its bounds."""
+    return replace(p, upper=float(pins), counts=True) if p.name in PIN_NUMBERS else p
+
+
+def shape_grid(shapes: Iterable[EffectParameter], pins: int) -> tuple[dict[str, float], ...]:
+    """Values of all shapes at once; of the numbers of pins those of the first ``pins``."""
+    grids = {p.variable.name: [v for v in p.grid if v <= pins] if p.variable.name in PIN_NUMBERS else p.grid for p in shapes if p.grid}
+    return tuple(dict(zip(grids, values)) for values in product(*grids.values()))
 
 
 def candidates(
-    records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0, cranks: int = 2
+    records: list[Record], present: dict[str, float], excluded: set[str], mountings: list[str], output_pins: int = 0, cranks: int = 2,
+    pins: int = 40, ways: int = 2,
 ) -> tuple[Candidate, ...]:
     """Every effect that the records can show and that is not among the nuisances.
 
     ``present`` are values that the model already has; an effect that is in it is not a
-    candidate again.
+    candidate again.  The reducer is turned onto itself in so many ``ways`` (``Topology``): of its ``pins`` those of one share
+    show another curve.
     """
     quantities = list(dict.fromkeys(r.quantity for r in records))
     there = {
@@ -97,8 +107,8 @@ def candidates(
             found.append(Candidate(
                 f"{name}.{group.replace(' ', '_')}" if group else name, title,
                 tuple(parameter_of(p, float(p.variable.start)) for p in amplitudes),
-                tuple(parameter_of(p, float(p.variable.start)) for p in estimated),
-                shape_grid(estimated), seen, part,
+                tuple(within_ring(parameter_of(p, float(p.variable.start)), pins) for p in estimated),
+                shape_grid(estimated, pins // ways), seen, part,
             ))  # fmt: skip
     return tuple(found)
 

@@ -130,8 +130,9 @@ class PhysicalModel(PlacedBeside):
         self.nuisances += (*model_error.parameters(self.records), *self.unstated_places.parameters())
         excluded = {n.parameter.name for n in nuisances}
         mountings = sorted({r.mounting for r in self.records if r.quantity in (ERROR, ORDERS)})
+        topology = model.reducer.topology
         self.candidates: tuple[Candidate, ...] = candidates(
-            self.records, present, excluded, mountings, model.reducer.topology.output_pins, model.reducer.topology.cranks
+            self.records, present, excluded, mountings, topology.output_pins, topology.cranks, topology.pins, topology.ways,
         ) + tuple(base_numbers(model.reducer, present.keys() | excluded))
         self.cages.amplitudes = {p.name: p.off for c in self.candidates for p in c.amplitudes}
 

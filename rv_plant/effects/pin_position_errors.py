@@ -1,10 +1,10 @@
 """Pins out of place: ring off centre, oval, tapered in threes, one proud pin, random places.
 
     radial shift of pin j   a = A1 cos(eta - d1) + A2 cos 2(eta - d2) + A3 cos 3(eta - d3) + sum_m (c_m cos m eta + s_m sin m eta) + s w_j
-    pin radius              r + p for the proud pin
+    pin radius              r + p for the proud pin; at a number between two both share p, by how near it is to each
 
 with eta = 2 pi j/z_p.  A ring off centre shifts pins by (A1 cos, -A1 sin) along (radial,
-tangential).  The w_j are fixed numbers of mean 0 and variance 1 that look random.
+tangential).  A number of the proud pin that is none lets a fit find the pin.  The w_j are fixed numbers of mean 0 and variance 1 that look random.
 Gap grows by the shift along the contact's normal, exactly, because pins are moved.
 
 Source: physics of the mesh; sizes 2 to 5 um as usual for ground rings.
@@ -12,7 +12,7 @@ Source: physics of the mesh; sizes 2 to 5 um as usual for ground rings.
 
 import math
 
-from fmu_src.effect import Effect, amplitude, choice, shape
+from fmu_src.effect import Effect, amplitude, shape
 from fmu_src.kernel import kernel
 
 UM = 1e-6
@@ -39,8 +39,9 @@ EFFECT = Effect(
                       group="harmonics")
             for m in HARMONICS for wave, name in (("cos", "cosine"), ("sin", "sine"))
         ),
-        amplitude("proud_pin", "m", "radius of one pin above nominal", 3 * UM, -50 * UM, 50 * UM, group="proud"),
-        choice("proud_pin_number", "which pin is proud"),
+        amplitude("proud_pin", "m", "radius of one pin above nominal", 3 * UM, -50 * UM, 50 * UM, sign=1, group="proud"),
+        shape("proud_pin_number", "1", "which pin is proud, counted the way the output turns; between two: both, by how near it is to each", 1.0, 0.0, 400.0,
+              "assumed: the first", grid=range(1, 401), group="proud"),
         amplitude("pin_scatter", "m", "scatter of the pins' radial places, standard deviation", 2 * UM, -20 * UM, 20 * UM, group="scatter"),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion",
@@ -70,5 +71,8 @@ def prepare(r):
         c, s = math.cos(eta), math.sin(eta)
         r.pin_x[j] += radial * c + r.pin_ring_runout * math.cos(r.pin_ring_runout_angle)
         r.pin_y[j] += radial * s + r.pin_ring_runout * math.sin(r.pin_ring_runout_angle)
-    if r.proud_pin_number <= pins:
-        r.pin_radius_added[r.proud_pin_number - 1] += r.proud_pin
+    if r.proud_pin_number < pins + 1.0:
+        before = int(r.proud_pin_number) - 1
+        share = r.proud_pin_number - 1.0 - before
+        r.pin_radius_added[(before + pins) % pins] += (1.0 - share) * r.proud_pin
+        r.pin_radius_added[(before + 1) % pins] += share * r.proud_pin

@@ -1,5 +1,6 @@
 """The refits of one diagnosis, each made once: roughly while effects are looked for, in earnest for what is reported."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -25,6 +26,11 @@ AGAIN = 3
 def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
     """The refit with its effects as they are asked for: who asks takes the last for the one that came in place of another."""
     return found if found.candidates == tuple(candidates) else replace(found, candidates=tuple(candidates))
+
+
+def beside(values: Mapping[str, float], counted: Sequence[str]) -> list[dict[str, float]]:
+    """The parts before and behind those that ``values`` count."""
+    return [{name: float(whole(values[name])) for name in counted} for whole in (math.floor, math.ceil) if counted]
 
 
 class Refits:
@@ -129,8 +135,10 @@ class Refits:
             return result
         places, some, telling = model.waves_on(result.fit.values, [p.name for c in result.candidates for p in c.shapes if p.is_direction])
         few, every, left = self.space.only(some), self.space.only(telling), []
-        # A wrong zero has bent the effects: each is tried with those that suit it.
-        begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in ({}, *places)]
+        # A wrong zero has bent the effects: each is tried with those that suit it, and with the parts that these stand between.
+        counted = [p.name for c in result.candidates for p in c.shapes if p.counts]
+        places = [{**place, **parts} for place in ({}, *places) for parts in ({}, *beside(result.fit.values, counted))]
+        begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in places]
         for fit in begun:
             predictions.settle(fit.values, telling)
             left.append(left_by(every, fit))
