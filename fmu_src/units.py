@@ -2,6 +2,7 @@
 
 import base64
 import json
+import math
 import tempfile
 from contextlib import suppress
 from dataclasses import dataclass
@@ -106,6 +107,7 @@ def conversion(source: str, target: str) -> tuple[float, float]:
     """(factor, offset) with target value = factor * source value + offset.
 
     What people write for several units is the one of the target's kind: C is a temperature, but for an electric charge.
+    A frequency counts turns: 25 Hz of a shaft are 1500 rpm (to pint, which has radians as numbers, 25 rad/s).
     """
     from pint import DimensionalityError
 
@@ -120,8 +122,19 @@ def conversion(source: str, target: str) -> tuple[float, float]:
             one = registry().Quantity(1.0, unit).to(aim).magnitude
         except DimensionalityError:
             continue
-        return one - zero, zero
+        turns = 2.0 * math.pi if is_speed(aim) and is_frequency(unit) else 0.5 / math.pi if is_speed(unit) and is_frequency(aim) else 1.0
+        return turns * (one - zero), zero
     raise UnitError(f"unit {source!r} does not fit: a unit of the same kind as {target!r} is needed")
+
+
+def is_frequency(unit: "pint.Unit") -> bool:
+    """Hz, kHz; not 1/s, which people write of both."""
+    return [name.endswith("hertz") for name, _ in registry().Quantity(1.0, unit).unit_items()] == [True]
+
+
+def is_speed(unit: "pint.Unit") -> bool:
+    """Angle over time: rad/s, rpm, deg/s, turn/s."""
+    return bool(registry().Quantity(1.0, unit).to_base_units().units == registry().parse_units("rad/s"))
 
 
 @cache

@@ -1,5 +1,7 @@
 """Units as people write them are the same wherever they are typed: reducer files, settings, options, campaigns."""
 
+import math
+
 import pytest
 
 from cli.main import main
@@ -71,3 +73,11 @@ def test_what_people_write_for_another_unit_is_none_of_the_models_own():
     assert {unit: parse(unit) for unit in own} == {unit: by_pint(unit) for unit in own}
     assert conversion("kg.m", "N.m") == (9.80665, 0.0)
     assert conversion("g.mm", "kg.m") == (pytest.approx(1e-6), 0.0)
+
+
+@pytest.mark.parametrize(("source", "target", "factor"), [
+    ("Hz", "rad/s", 2.0 * math.pi), ("Hz", "rpm", 60.0), ("rpm", "Hz", 1.0 / 60.0), ("kHz", "deg/s", 360e3), ("kHz", "Hz", 1e3), ("rpm", "rad/s", math.pi / 30.0),
+])  # fmt: skip
+def test_a_frequency_counts_turns(source, target, factor):
+    """25 Hz of a shaft were 239 rpm."""
+    assert conversion(source, target) == (pytest.approx(factor, rel=1e-12), 0.0)
