@@ -59,6 +59,8 @@ LOBE = {"lobe_throw_error_1": 4e-6}
     ("pin_position_errors", TRILOBE, 13.2, None, 13.2), ("pin_position_errors", TRILOBE, -22.4, None, -22.4), ("pin_position_errors", TRILOBE, 37.3, 37.3, 37.3),
     # An error of a crank is the same every second wave: of these the nearest.
     ("crank_lobe_errors", LOBE, 23.3, None, -0.7), ("crank_lobe_errors", LOBE, 23.3, 2.9, 3.3),
+    # Where cages stand elsewhere that is seen, and says nothing of the place.
+    ("crank_lobe_errors", LOBE, -36.7, 2.9, 3.3), ("crank_lobe_errors", LOBE, 39.3, 2.9, 3.3),
 ])  # fmt: skip
 def test_beside_parts_that_are_off_waves_are_told_apart(effect, own, zero, known, found):
     """A model file with an effect of a part, one of the ring first: 4.5 degrees further the pattern is nearly, but not, the same.
@@ -68,13 +70,13 @@ def test_beside_parts_that_are_off_waves_are_told_apart(effect, own, zero, known
     """
     reducer = load_reducer("RV20E-121")
     bench = Bench(reducer, {})
-    at = Condition(bench.rated_speed, bench.rated_load)
+    at = Condition(bench.rated_speed, 0.6 * bench.rated_load)
     angles = np.linspace(0.0, 2.0 * np.pi, 1800, endpoint=False)
     wave = 2.0 * np.pi / 80
-    noise = 2e-6 * np.random.default_rng(5).standard_normal(len(angles))
+    noise = 1e-6 * np.random.default_rng(5).standard_normal(len(angles))
     factors = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
     record = Record("run", "transmission_error", "rad", "a", 1, bench.column("transmission_error", at, own, angles + zero * wave) + noise,
-                    {"angle": angles}, factors, stated_noise=2e-6)  # fmt: skip
+                    {"angle": angles}, factors, stated_noise=1e-6)  # fmt: skip
     present = {effect: {name: {"value": value} for name, value in own.items()}}
     steps = ({"campaign": "a", "nuisances": {"angle_zero[1]": known * wave}},) if known else ()
     model = PhysicalModel(ModelFile(reducer.name, reducer, effects=present, steps=steps), replace(campaign(), name="a", reducer=reducer, records=(record,)))

@@ -7,6 +7,7 @@ import numpy as np
 
 from discrepancy.outlying_samples import bridged
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.cage_ripples import cage_ripples
 from discrepancy.prediction.cages import LONG
 from discrepancy.prediction.conditions import angle_zero, turns_of
 from discrepancy.prediction.curves import OverAngle, shifted_errors, signal
@@ -24,6 +25,8 @@ SHARES = np.linspace(-0.5, 0.5, PHASES, endpoint=False)
 FEW, LIKELY, NEAREST = 2048, 12, 2
 # A campaign's zero is the model's if another place leaves so little less of the misfit, or of the pattern's own variance; chi-square that is no noise's.
 OF_MISFIT, OF_PATTERN, SURELY = 0.02, 0.1, 25.0
+# Of a misfit that is noise, what cages make that stand elsewhere, at most.
+OF_CAGES = 0.25
 
 
 def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
@@ -64,10 +67,23 @@ def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: flo
     likely = {*np.argsort(misfits.min(axis=1))[:LIKELY].tolist(), *range(half - NEAREST, half + NEAREST + 1)}
     places = {k: between(shifts[k], misfits[k]) for k in sorted(likely)}
     left = {k: record.values - predicted_at(bench, record, own, at) for k, at in places.items()}
-    best = min(left.values(), key=lambda e: misfit(record, e))
-    # Rollers, whose cages are not placed yet, make some difference, too.
-    alike = [k for k, e in left.items() if gain(e, best) <= SURELY or misfit(record, e) <= (1.0 + OF_MISFIT) * misfit(record, best)]
+    best = min(left, key=lambda k: misfit(record, left[k]))
+    # Rollers, whose cages are not placed yet, make some difference, too: nothing else may tell places apart.
+    by_cages = [k for k, e in left.items() if misfit(record, e) <= (1.0 + OF_CAGES) * misfit(record, left[best])]
+    nearest_one = min(by_cages, key=lambda k: abs(places[k] - near))
+    for k in {best, nearest_one} if nearest_one != best and record.quantity == ERROR else ():
+        left[k] = without_cages(bench, record, own, places[k], left[k])
+    alike = [k for k, e in left.items() if gain(e, left[best]) <= SURELY or misfit(record, e) <= (1.0 + OF_MISFIT) * misfit(record, left[best])]
     return min((places[k] for k in alike), key=lambda place: abs(place - near))
+
+
+def without_cages(bench: Bench, record: Record, own: dict[str, float], zero: float, left: Floats) -> Floats:
+    """What a record is off (n,) by with its angle 0 at ``zero`` [rad], without what cages that stand elsewhere could make of it."""
+    pitch = 2.0 * np.pi / bench.reducer.topology.rollers
+    ahead = cage_ripples(bench, record, {**own, angle_zero(record): zero}, [share * pitch for share in (0.25, 0.5, 0.75)])
+    waves = np.column_stack([np.ones(len(left)), ahead[1], ahead[0] - ahead[2]])
+    rest: Floats = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]
+    return rest
 
 
 def thinned(record: Record) -> Record:
