@@ -220,6 +220,10 @@ class Placing(Protocol):
         """Records that say nothing before it is known where they were taken: ``Settling`` finds it beside effects that are about right."""
         ...
 
+    def unseen(self, values: Mapping[str, float]) -> Sequence[int]:
+        """Records of which nobody says where they were taken, and for which no place was found beside the effects in ``values`` either."""
+        ...
+
     def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
         """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
         ...

@@ -256,7 +256,7 @@ def test_a_further_effect_that_gains_by_other_places_alone_is_none(monkeypatch, 
         def unplaced(self):
             return [0]
 
-        placed_anew = otherwise = waves_on = unplaced
+        placed_anew = unseen = otherwise = waves_on = unplaced
 
     def fitted(space, fit, chosen):
         return SimpleNamespace(chi2=1.0 if (gained_by, places["a"]) == ("place", "there") else 50.0, values=fit.values, residual=[]), np.zeros((1, 1))

@@ -89,6 +89,11 @@ class PlacedBeside:
         """See ``problem.Placing``: loops of which nobody says where the input was locked, or whose places count from a zero that is found."""
         return [i for i, record in enumerate(self.records) if is_unplaced(record) or self.locked_waves.counts(record)]
 
+    def unseen(self, values: Mapping[str, float]) -> list[int]:
+        """See ``problem.Placing``: loops that are predicted as the mean over positions."""
+        places = self.unstated_places.taken(self.cages.effects(self.standing() | dict(values)), values)
+        return [i for i, record in enumerate(self.records) if is_unplaced(record) and record.condition not in places]
+
     def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
         """See ``problem.Placing``: inputs whose place was found are locked where the discs have changed places."""
         every = self.standing() | dict(values)

@@ -38,6 +38,9 @@ NEAR = 0.5
 FROM_THERE = 4.0
 # Squares that a position leaves, of those that the mean over positions leaves: from more nobody can say that there is one.
 CLEARLY = 0.25
+# Parts of a turn of the output at which turns of the cranks are compared first; squares, of those that are left, by which they differ where nobody
+# could tell them apart.
+OTHER_TURNS, SAME = (2, 3, 5, 40), 1e-3
 # Squares that another place leaves, of those that the one taken leaves: from more it stays.
 BETTER = 0.5
 # Squares beyond its noise of a transmission error that effects leave, of those without: less explains it, if there are more than so many deviations of
@@ -156,9 +159,11 @@ class UnstatedPlaces:
             likely = places[np.argsort([left(place) for place in places])[:MOST_CLOSER]]
             return best_of(loop, predicted, np.array([self.closer(loop, predicted, place) for place in likely]))
 
-        # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all.
+        # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all, unless some of them show the same.
         first = closest_of(np.arange(PER_TURN) * self.step)
-        found = closest_of(first + np.arange(0.0, self.turn, self.period)) % self.turn
+        turns, there, seen = first + np.arange(0.0, self.turn, self.period), predicted(loop, first), left(first)
+        same = all(float(np.var(predicted(loop, turns[len(turns) // part]) - there)) < SAME * seen for part in OTHER_TURNS)
+        found = (first if same else closest_of(turns)) % self.turn
         if now is not None and (self.are_near(found, now) or left(found) > BETTER * left(now)):
             found = now
         return found if left(found) < CLEARLY * left(None) else None

@@ -12,6 +12,7 @@ from discrepancy.inference.base_fit.components import component_grams, effective
 from discrepancy.inference.base_fit.fit import Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import fit_effects
+from discrepancy.inference.refit.unseen_places import without_unseen
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Parameter
 from fmu_src.arrays import Floats
@@ -68,7 +69,12 @@ def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Sc
     for s in scores:
         if s.second_start:
             starts.append({**first, **s.second_start, **(fixed or {})})
-    return finished(space, candidates, fit_effects(space, candidates, starts[:2], widely, least))
+
+    def fitting(where: Workspace, at_least: float) -> Fit:
+        return fit_effects(where, candidates, starts[:2], widely, at_least)
+
+    by_all, by_sure = fitting(space, least), without_unseen(space, candidates, fitting, least)
+    return finished(space, candidates, by_all if by_sure is None else min(by_all, by_sure, key=lambda fit: fit.chi2))
 
 
 def finished(space: Workspace, candidates: Sequence[Candidate], fit: Fit, covariance: Floats | None = None) -> Refit:

@@ -33,6 +33,10 @@ def beside(values: Mapping[str, float], counted: Sequence[str]) -> list[dict[str
     return [{name: float(whole(values[name])) for name in counted} for whole in (math.floor, math.ceil) if counted]
 
 
+def half_a_turn_on(values: Mapping[str, float], directions: Sequence[str]) -> dict[str, float]:
+    return {name: value + math.pi if name in directions else value for name, value in values.items()}
+
+
 class Refits:
     """``fitted`` by the names of the effects, ``final_fits`` of them those that are reported; ``scores`` say where a fit starts."""
 
@@ -131,19 +135,32 @@ class Refits:
     def at_its_zero(self, result: Refit) -> Refit:
         """The refit where it would begin with zeros of angles that looked alike without its effects, if these are large and it is surely better there."""
         model, predictions = self.space.model, self.space.predictions
-        if not isinstance(model, Placing) or result.fit.chi2 > EXPLAINS * self.space.base.chi2:
+        if not isinstance(model, Placing):
             return result
-        places, some, telling = model.waves_on(result.fit.values, [p.name for c in result.candidates for p in c.shapes if p.is_direction])
-        few, every, left = self.space.only(some), self.space.only(telling), []
+        directions = [p.name for c in result.candidates for p in c.shapes if p.is_direction]
+        unseen = bool(model.unseen(result.fit.values))
+        if not unseen and result.fit.chi2 > EXPLAINS * self.space.base.chi2:
+            return result
+        places, some, telling = model.waves_on(result.fit.values, directions)
+        few = self.space.only(some)
         # A wrong zero has bent the effects: each is tried with those that suit it, and with the parts that these stand between.
         counted = [p.name for c in result.candidates for p in c.shapes if p.counts]
         places = [{**place, **parts} for place in ({}, *places) for parts in ({}, *beside(result.fit.values, counted))]
         begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in places]
+        if unseen:
+            # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
+            begun += [replace(fit, values=half_a_turn_on(fit.values, directions)) for fit in begun if directions]
+            telling = self.space.training
+        every, before, left, found = self.space.only(telling), model.places(predictions.active(result.fit.values)), [], []
         for fit in begun:
+            predictions.put(fit.values, before)
             predictions.settle(fit.values, telling)
             left.append(left_by(every, fit))
+            found.append(model.places(predictions.active(fit.values)))
         best = int(np.argmin(left))
-        return result if left[best] > left[0] - SURELY else replace(result, fit=begun[best])
+        chosen = 0 if left[best] > left[0] - SURELY else best
+        predictions.put(begun[chosen].values, found[chosen])
+        return result if chosen == 0 else replace(result, fit=begun[chosen])
 
     def otherwise(self, result: Refit) -> Refit:
         """The refit with what the model has placed at the other place that looks alike, if something may be left of the misfit."""
