@@ -37,6 +37,7 @@ MODEL = {
     "StepEntry.training_before": "error over noise of fitted runs, before", "StepEntry.training_after": "and after",
     "StepEntry.held_out_before": "error over noise of unused runs, before", "StepEntry.held_out_after": "and after",
     "StepEntry.nuisances": "what was calibrated on the way", "StepEntry.signals": "the same by signal",
+    "StepEntry.untold": "which parts of it look alike, and what tells them apart",
     "StepEntry.positions": "output angle of the model [rad] at which positions of the input that a campaign states are 0, by mounting",
     "StepEntry.kept": "whether the effect stayed in the model", "SignalEntry.signal": "signal", "SignalEntry.held_out": "whether of unused runs",
     "SignalEntry.unit": "SI unit", "SignalEntry.before": "error before", "SignalEntry.after": "error after", "SignalEntry.noise_floor": "noise",

@@ -8,6 +8,7 @@ from discrepancy.as_told import told_name
 from discrepancy.campaign.amount import readable
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.refit.refit import covariance_of
+from discrepancy.key_figures import STIFFNESS, KeyFigure
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.problem import Parameter, Record
 from discrepancy.scales import of_parameter
@@ -25,11 +26,11 @@ SURELY_WHOSE = 25.0
 
 
 def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str] = (), records: Sequence[Record] = (),
-                      as_input: Callable[[], float] = lambda: 0.0) -> list[str]:  # fmt: skip
+                      as_input: Callable[[], float] = lambda: 0.0, softer: float | None = None) -> list[str]:  # fmt: skip
     """One sentence for each doubtful number that was calibrated: at a bound, far from what is known, or a lag that no such reducer has.
 
     ``effects`` are the parameters of the fit that are effects', which are judged elsewhere; ``records`` the campaign's, whose loads a lag rests on;
-    ``as_input`` says by how much chi-square their angle is better that of the input.
+    ``as_input`` says by how much chi-square their angle is better that of the input; ``softer``: so many times as soft as the model loops show it.
     """
     # A misfit makes numbers less certain than the noise alone does.
     scatter = max(1.0, fit.chi2 / max(len(fit.residual), 1))
@@ -43,13 +44,19 @@ def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str]
         if parameter.name == LAG_SHARE:
             # At its bound it is 0 but for what a solver leaves.
             told = f"calibrated {LAG_SHARE} = {readable(round(value, 4))}"
-            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)), loads_of(records), as_input)]
+            found += [f"{told} {text}" for text in lag_doubts(round(value, 4), float(np.sqrt(variance)), loads_of(records), as_input, softer)]
         elif parameter.prior and abs(value - parameter.off) > FAR * parameter.prior:
             times = abs(value - parameter.off) / parameter.prior
             found.append(f"{told} lies {times:.1f} standard deviations from {scale.text(parameter.off, 3)}, which was known before: something else is in it")
         elif parameter.name in fit.at_bounds and not is_angle(parameter):
             found.append(f"{told} stands at a bound of its range: it would go on, so it is no measurement of this number")
     return found
+
+
+def softer_by_loops(figures: Sequence[KeyFigure]) -> float | None:
+    """How many times as soft as the model loops show what was measured; None where there are none."""
+    shares = [f.model / f.measured for f in figures if f.name == STIFFNESS and f.measured > 0.0]
+    return float(np.median(shares)) if shares else None
 
 
 def is_angle(parameter: Parameter) -> bool:
@@ -67,8 +74,9 @@ def loads_of(records: Sequence[Record]) -> list[float | None]:
     return sorted(most, key=lambda load: -1.0 if load is None else load)
 
 
-def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (), as_input: Callable[[], float] = lambda: 0.0) -> list[str]:
-    """What is said against a share of the lag known to ``deviation`` from runs at ``loads`` [N.m]; 1 is the model's own; ``as_input`` as above."""
+def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (), as_input: Callable[[], float] = lambda: 0.0,
+               softer: float | None = None) -> list[str]:  # fmt: skip
+    """What is said against a share of the lag known to ``deviation`` from runs at ``loads`` [N.m]; 1 is the model's own; ``as_input``, ``softer`` as above."""
     low, high = PLAUSIBLE_LAG
     if low <= value <= high:
         return []
@@ -83,6 +91,9 @@ def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (
                     f" {-gained:.3g} in chi-square)"]  # fmt: skip
         return [f"{start}either it was the input's over the ratio after all (state {OF_INPUT} if it was, and diagnose again: places and directions of what is"
                 " found may move), or the encoder was set to 0 under the load of each run"]  # fmt: skip
+    if value > CLEAR_LAG[1] + SURELY * deviation and softer is not None and softer < value / CLEAR_LAG[1]:
+        return [f"(the model's own is 1) is no softness: loops of this campaign show {softer:.3g} times the model's own; an effect that is not in the model yet"
+                " moves places along the angle, and with it in the model it should come near to that"]  # fmt: skip
     if value > CLEAR_LAG[1] + SURELY * deviation:
         return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
                 " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip

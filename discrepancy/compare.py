@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
-from discrepancy.calibrated_doubts import calibrated_doubts
+from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import Finding, missing_factors
@@ -97,7 +97,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *([] if places else locked_doubts(campaign)))] + places
     figures = figures_of(diagnostician, model)
     doubts += [outlier_text(o, runs) for o in found]
-    doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records)
+    doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records, softer=softer_by_loops(figures))
     doubts += zero_texts(model, space, space.base)
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}

@@ -25,6 +25,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
+from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from discrepancy.written_number import digits_of, rounded
 from fmu_src.faults import InputFault
@@ -120,6 +121,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
         "positions": zeros,
+        "untold": parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else [],
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}

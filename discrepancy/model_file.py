@@ -85,6 +85,7 @@ class StepEntry(Strict):
     nuisances: dict[str, float] = {}
     positions: dict[str, float] = {}
     signals: list[SignalEntry] = []
+    untold: list[str] = []
     kept: bool = True
 
 

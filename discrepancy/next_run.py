@@ -29,7 +29,7 @@ from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.scales import of_axis, shown, unit_of_axis
 from discrepancy.unstated_texts import without_place
-from discrepancy.untold import origins_untold
+from discrepancy.untold import origins_untold, parts_untold, parts_untold_before
 from discrepancy.usual_noise import UNMEASURED
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
@@ -57,11 +57,6 @@ MOUNTED_ANEW = (
 POSITION_MISSING = (
     f"{QUESTION}, so that they are predicted as the mean over a turn of the cranks: what is left at all conditions alike may be the position, which is"
     f" missing before anything is mounted anew; {REMEDY}"
-)
-# Of an effect at one of several parts with which the reducer as a whole does the same.
-SAME_WITH_EACH = (
-    "no other run of these signals tells, for they are the same with each; measure these parts, or exchange one of them for that of another unit and"
-    " repeat a run: if the effect changes with it, it was in that part"
 )
 # What can be meant by a quantity that was not measured yet.
 TAGS: dict[str, tuple[dict[str, str], ...]] = {
@@ -164,7 +159,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     if len(names) < 2:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
-        untold = origins_untold(answer.effects, answer.model.file, campaign) + untold_parts(answer.effects)
+        untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
         return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
@@ -226,12 +221,6 @@ def is_measured(proposal: Proposal, campaign: Campaign) -> bool:
 
 def within(value: float | None, span: tuple[float, float]) -> bool:
     return value is not None and (span[0] <= value <= span[1] or any(math.isclose(value, end, rel_tol=1e-9, abs_tol=1e-9) for end in span))
-
-
-def untold_parts(effects: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
-    several = (effect for effect in effects if effect.get("other_places"))
-    return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
 
 
 def plainly(member: Refit) -> str:

@@ -8,6 +8,23 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.pairs import PAIRS, judge
 from discrepancy.model_file import ModelFile
 
+# Of an effect at one of several parts with which the reducer as a whole does the same.
+SAME_WITH_EACH = (
+    "no other run of these signals tells, for they are the same with each; measure these parts, or exchange one of them for that of another unit and"
+    " repeat a run: if the effect changes with it, it was in that part"
+)
+
+
+def parts_untold(effects: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
+    several = (effect for effect in effects if effect.get("other_places"))
+    return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
+
+
+def parts_untold_before(file: ModelFile) -> list[str]:
+    """The same of effects that stand in a model file, as it was when they were added."""
+    return [text for step in file.steps if step.get("kept", True) for text in step.get("untold", ())]
+
 
 def origins_untold(effects: Sequence[Mapping[str, Any]], file: ModelFile, campaign: Campaign) -> list[str]:
     """Of ``effects`` that are named, or that the model has, and may come from one thing or another: that this campaign does not tell which, and what does."""

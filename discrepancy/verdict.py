@@ -13,7 +13,7 @@ from typing import Any
 
 from discrepancy import as_told
 from discrepancy.beside_none import beside_none
-from discrepancy.calibrated_doubts import calibrated_doubts
+from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
 from discrepancy.hidden_by_position import hidden_by_position
@@ -33,7 +33,7 @@ from discrepancy.ring_directions import ring_texts
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
 from discrepancy.unstated_texts import unstated_texts
-from discrepancy.untold import origins_untold
+from discrepancy.untold import origins_untold, parts_untold_before
 from discrepancy.waves import waves_of
 from discrepancy.whose_angle import gained_as_input
 from fmu_src.progress import task
@@ -171,7 +171,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Beside what is named a number may be what it should be.
     own = {p.name for p in best.own} if best else ()
     fit = best.fit if best else doctor.space.base
-    doubts = calibrated_doubts(fit, as_told.tables_of(model), own, doctor.space.records, partial(gained_as_input, model, doctor.space, fit))
+    doubts = calibrated_doubts(fit, as_told.tables_of(model), own, doctor.space.records, partial(gained_as_input, model, doctor.space, fit),
+                               softer_by_loops(figures))  # fmt: skip
     doubts += hidden_by_position(doctor, found, as_told.tables_of(model))
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
@@ -179,7 +180,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += zero_texts(model, doctor.space, fit)
     doubts += ring_texts(effects, fit.values, model.file) + sign_doubts(effects, found)
     doubts += direction_doubts(effects, found, as_told.tables_of(model))
-    untold = origins_untold(effects, model.file, model.campaign)
+    untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
     return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros)

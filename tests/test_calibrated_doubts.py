@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from discrepancy.calibrated_doubts import calibrated_doubts
+from discrepancy.calibrated_doubts import calibrated_doubts, lag_doubts, softer_by_loops
 from discrepancy.inference.base_fit.fit import fit_of
+from discrepancy.key_figures import STIFFNESS, KeyFigure
 from discrepancy.ladder_step import step_of
 from discrepancy.page.extension import model_page
 from discrepancy.problem import Parameter, Record
@@ -122,3 +123,15 @@ def test_what_was_calibrated_is_told_with_its_meaning():
     assert calibrated_texts(model, {"angle_zero[1]": -0.0160101, "lag_share": 1.00309, "angle_zero[2]": 1e-3, "own": 2.0}) == [
         f"angle_zero[1] = -55.04 arcmin, angle_zero[2] = 3.438 arcmin: {angle}", "lag_share = 1.003: lag of the output", "own = 2",
     ]
+
+
+def test_a_softness_that_loops_contradict_is_none():
+    """"Either the measured reducer is about 6.4 times as soft, which a loop of it would show" stood below loops that showed 49.6 of 50 N m/arcmin."""
+    figures = [KeyFigure("hysteresis", "a", STIFFNESS, "N.m/rad", measured, 1.72e5, 1e3, 1, True) for measured in (1.70e5, 1.71e5)]
+    assert softer_by_loops(figures) == pytest.approx(1.009, abs=1e-3) and softer_by_loops([]) is None
+    [text] = lag_doubts(6.354, 0.01, softer=softer_by_loops(figures))
+    assert "is no softness: loops of this campaign show 1.01 times the model's own" in text
+    # What they show, too, may be one; and where there are none nobody knows.
+    for softer in (5.0, None):
+        [text] = lag_doubts(6.354, 0.01, softer=softer)
+        assert "about 6.4 times as soft" in text

@@ -16,6 +16,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun, at_rated, conditions, describe, possible, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from reducers.reducer import load_reducer
 
@@ -32,7 +33,7 @@ def model_of(records):
     bench = SimpleNamespace(rated_speed=190.0, rated_load=167.0)
     unstated = SimpleNamespace(taken=lambda effects, values: {})
     one = lambda record, values: np.full(len(record.values), 2e-6)
-    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=one, unstated_places=unstated, file=SimpleNamespace(effects={}, values=dict))
+    return SimpleNamespace(records=records, bench=bench, campaign=CAMPAIGN, standing=dict, one=one, unstated_places=unstated, file=SimpleNamespace(effects={}, values=dict, steps=()))
 
 
 def space_of(records):
@@ -179,6 +180,13 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     said = proposal_for(answer, CAMPAIGN).verdict
     assert f"at which part it is (crank lobe errors at {four}) no other run of these signals tells, for they are the same with each" in said
     assert "exchange one of them for that of another unit" in said
+    # Once it stands in the model file it is as open as before.
+    kept = {"untold": parts_untold(answer.effects), "kept": True}
+    answer.effects = []
+    answer.model.file.steps = (kept, {"untold": ["what was tried in vain"], "kept": False})
+    said = proposal_for(answer, CAMPAIGN).verdict
+    assert f"at which part it is (crank lobe errors at {four})" in said and "in vain" not in said
+    answer.model.file.steps = ()
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": "crank 1 at disc 1", "other_places": []}]
     assert "no other run" not in proposal_for(answer, CAMPAIGN).verdict
 

@@ -190,12 +190,14 @@ def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
     all_round = p.is_direction and p.upper - p.lower > 2.0 * math.pi
     if all_round:
         low, high = -math.pi, math.pi
+    if p.counts:
+        low, high = 1.0, p.upper
     scale = of_parameter(max(abs(low), abs(high)), p.unit, p.is_direction)
     plain = p.description.removesuffix(" (0: off)")
     return {
         "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(p.off),
         "low": scale.number(low), "high": scale.number(high), "bounds": [scale.number(p.lower), scale.number(p.upper)], "typical": scale.factor * p.scale,
-        "amplitude": is_amplitude, "all_round": all_round, "description": p.description, "of": "" if amounts.pretty(scale.unit) else plain,
+        "amplitude": is_amplitude, "all_round": all_round, "counts": p.counts, "description": p.description, "of": "" if amounts.pretty(scale.unit) else plain,
     }  # fmt: skip
 
 

@@ -80,7 +80,9 @@ def in_words(tested: Tested, completion: Completion) -> str:
         return found
     found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
     if tested.gap is None:
-        return found + f"without a gap it is {tested.least:.3g} arcmin, --known bearing.clearance=... sets the clearance"
+        clearance = completion.numbers["bearing.clearance"].as_read
+        least = f"--known bearing.clearance={clearance.low:.3g}{clearance.unit}"
+        return found + f"without a gap ({GAP}) it is {tested.least:.3g} arcmin; {least} is the least clearance that bearings of this size have"
     return found + f"one of {tested.gap:g} um makes it {told:g} arcmin, and --meet-lost-motion takes that"
 
 

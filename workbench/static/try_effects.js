@@ -61,13 +61,13 @@ const called = (p) => words(p.name).replace(/\[([^\]]*)\]$/, " ($1)");
 
 function slider(p, values, follow) {
   const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off,
-    step = (p.high - p.low) / 400,
+    step = p.counts ? 1 : (p.high - p.low) / 400,
     unit = p.unit || "1";
   const range = h("input", {
     type: "range",
     min: p.low,
     max: p.high,
-    step: "any",
+    step: p.counts ? 1 : "any",
     value,
     "aria-label": `${called(p)} [${unit}]`,
     "data-parameter": p.name,
