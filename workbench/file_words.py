@@ -15,6 +15,7 @@ LINES = [
     (r"\(locked_at of the condition\)", r"('locked at' of the condition)"),
     (r'state angle_of = "input" in \[quantities\.transmission_error\] of campaign\.toml', r"choose 'the input, over the ratio' as 'angle of' under In"),
     (r'angle_of = "input" in \[quantities\.transmission_error\] of campaign\.toml', r"'the input, over the ratio' as 'angle of' under In"),
+    (r'angle_of = "output" is assumed', r"'an encoder on the output' is assumed as 'angle of'"),
     (r'angle_of = "output"', r"'angle of' is 'an encoder on the output' under In"),
     (r"state (?P<keys>[a-z_]+(?: or [a-z_]+)*) in \[conditions\.(?P<name>[^]]+)\], or give it as a column",
      r"type \g<keys> of condition \g<name> under In, or choose a column for it"),
