@@ -4,14 +4,14 @@ The seat of one crank, too far forward by as much as it might be too far back, o
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from discrepancy.as_told import told_name
+from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.other_places import as_shown
-from discrepancy.problem import Candidate, Parameter
 from fmu_src.table import Table
 
 
@@ -31,7 +31,7 @@ def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables
     """
     found_doubts = []
     for member in alone(effects, found):
-        if not (others := list(half_a_turn_on(member))):
+        if not (others := list(half_a_turn_on(member.candidates, member.fit.values))):
             continue
         same = shown_by(member, found)
         for p, other in others:
@@ -41,21 +41,6 @@ def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables
                     f"{told_name(p.name, tables)}: {there} shows the same in the runs that were fitted as {here}; they do not tell which of the two it is"
                 )
     return found_doubts
-
-
-def half_a_turn_on(member: Refit) -> Iterator[tuple[Parameter, float]]:
-    """Directions [rad] of a member's effects half a turn further, where that is another one: an oval is not."""
-    for candidate in member.candidates:
-        for p in candidate.shapes:
-            if p.is_direction and (further := math.remainder(math.pi, period(candidate, p))):
-                yield p, math.remainder(member.fit.values[p.name] + abs(further), 2.0 * math.pi)
-
-
-def period(candidate: Candidate, shape: Parameter) -> float:
-    """The angle [rad] after which a direction is the same again, which is looked through in even steps: a turn, half of it for an oval."""
-    places = sorted({grid[shape.name] for grid in candidate.shape_grid})
-    whole = 2.0 * math.pi / len(places) / (places[1] - places[0]) if len(places) > 1 else 1.0
-    return 2.0 * math.pi / round(whole)
 
 
 def alone(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[Refit]:

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.verdict import ONE, STOPPED
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import direction_doubts, half_a_turn_on, sign_doubts
+from discrepancy.opposite_sign import direction_doubts, sign_doubts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.ring_directions import ring_texts
@@ -86,7 +87,8 @@ def test_a_ring_shows_as_well_what_is_on_its_other_side(turning, name, values, h
 
 
 def test_an_oval_is_the_same_half_a_turn_on(turning):
-    assert not list(half_a_turn_on(member_of(turning, "pin_position_errors.ovality", {"pin_ring_ovality": 4e-6, "pin_ring_ovality_angle": 0.7})))
+    member = member_of(turning, "pin_position_errors.ovality", {"pin_ring_ovality": 4e-6, "pin_ring_ovality_angle": 0.7})
+    assert not list(half_a_turn_on(member.candidates, member.fit.values))
 
 
 def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():

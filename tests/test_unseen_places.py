@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import fit_effects
 from discrepancy.inference.refit.refit import refit
-from discrepancy.inference.refit.refits import half_a_turn_on
 from discrepancy.inference.refit.unseen_places import without_unseen
 from discrepancy.problem import Candidate, Parameter, Record
 
@@ -75,5 +75,9 @@ def test_where_nothing_else_tells_all_runs_do(unseen, candidate):
     assert without_unseen(workspace(unseen), [candidate], fitting(candidate, {candidate.name: 1.0}), np.inf) is None
 
 
-def test_half_a_turn_on_directions_alone_are_turned():
-    assert half_a_turn_on({"runout": 3e-6, "angle": 0.5}, ["angle"]) == {"runout": 3e-6, "angle": 0.5 + np.pi}
+@pytest.mark.parametrize(("waves", "there"), [(1, 0.5 - np.pi), (2, None), (3, 0.5 + np.pi / 3.0)], ids=["off centre", "oval", "three lobes"])
+def test_half_a_turn_on_directions_alone_are_turned(waves, there):
+    grid = tuple({"angle": 2.0 * np.pi * k / 4 / waves} for k in range(4))
+    shape = Parameter("angle", "rad", 0.0, -20.0, 20.0, 0.3)
+    found = half_a_turn_on([Candidate("ring", "ring", RING.amplitudes, (shape,), grid)], {"ring": 3e-6, "angle": 0.5})
+    assert [(p.name, pytest.approx(other)) for p, other in found] == ([] if there is None else [("angle", there)])

@@ -101,13 +101,12 @@ def known_of(answer: Answer) -> list[Known]:
 def take_over(model: PhysicalModel, answer: Answer, campaign: Campaign) -> None:
     """What ``answer`` has placed beside effects, for a model of the same runs as they are thinned; without effects that has placed all itself."""
     there = answer.model
-    take(model.locked_places.found, there.locked_places.found)
-    take(model.lags.found, there.lags.found)
-    take(model.locked_waves.found, there.locked_waves.found)
-    take(model.unstated_places.found, there.unstated_places.found)
+    *places, (ripples_of_mine, _) = zip(model.found_beside(), there.found_beside())
+    for mine, found in places:
+        take(mine, found)
     whole = {record.name: record for record in campaign.records}
     ripples = {effects: {name: fewer(ripple, whole[name], campaign) for name, ripple in placed.items()} for effects, placed in there.cages.ripples.items()}
-    take(model.cages.ripples, ripples)
+    take(ripples_of_mine, ripples)
 
 
 def take(mine: dict[Effects, Found], found: Mapping[Effects, Found]) -> None:

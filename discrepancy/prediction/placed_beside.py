@@ -55,6 +55,10 @@ class PlacedBeside:
         """A transmission error [rad] roughly, with the ``effects`` of ``values`` or without."""
         raise NotImplementedError
 
+    def effects_in(self, values: Mapping[str, float]) -> Effects:
+        """The effects that are on in ``values``."""
+        return self.cages.effects(self.standing() | dict(values))
+
     def settle(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> bool:
         """See ``problem.Settling``: the roller cages are placed anew, and where inputs were locked."""
         every, names = self.standing() | dict(values), None if which is None else {self.records[i].name for i in which}
@@ -91,7 +95,7 @@ class PlacedBeside:
 
     def unseen(self, values: Mapping[str, float]) -> list[int]:
         """See ``problem.Placing``: loops that are predicted as the mean over positions."""
-        places = self.unstated_places.taken(self.cages.effects(self.standing() | dict(values)), values)
+        places = self.unstated_places.taken(self.effects_in(values), values)
         return [i for i, record in enumerate(self.records) if is_unplaced(record) and record.condition not in places]
 
     def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -101,12 +105,12 @@ class PlacedBeside:
 
     def places(self, values: Mapping[str, float]) -> Places:
         """See ``problem.Placing``."""
-        effects = self.cages.effects(self.standing() | dict(values))
+        effects = self.effects_in(values)
         return tuple(with_most(found, effects, None) for found in self.found_beside())
 
     def put(self, values: Mapping[str, float], places: Places) -> None:
         """See ``problem.Placing``."""
-        effects = self.cages.effects(self.standing() | dict(values))
+        effects = self.effects_in(values)
         for found, there in zip(self.found_beside(), places):
             found.pop(effects, None)
             if there is not None:
@@ -145,7 +149,7 @@ class PlacedBeside:
     def locked_as(self, values: Mapping[str, float], fitted: Mapping[str, float]) -> Iterator[None]:
         """Inputs are locked where ``values`` have them, those of which nobody says it where they were found beside what was ``fitted``, for a while."""
         every = self.standing() | dict(values)
-        effects, known = self.cages.effects(every), self.cages.effects(self.standing() | dict(fitted))
+        effects, known = self.cages.effects(every), self.effects_in(fitted)
         with self.locked_places.tried(effects, every), self.unstated_places.tried(effects, known):
             yield
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, left_by, there
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
 from discrepancy.inference.refit.refit import Refit, finished, refit
@@ -31,10 +32,6 @@ def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
 def beside(values: Mapping[str, float], counted: Sequence[str]) -> list[dict[str, float]]:
     """The parts before and behind those that ``values`` count."""
     return [{name: float(whole(values[name])) for name in counted} for whole in (math.floor, math.ceil) if counted]
-
-
-def half_a_turn_on(values: Mapping[str, float], directions: Sequence[str]) -> dict[str, float]:
-    return {name: value + math.pi if name in directions else value for name, value in values.items()}
 
 
 class Refits:
@@ -149,7 +146,8 @@ class Refits:
         begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in places]
         if unseen:
             # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
-            begun += [replace(fit, values=half_a_turn_on(fit.values, directions)) for fit in begun if directions]
+            turned = [{p.name: other for p, other in half_a_turn_on(result.candidates, fit.values)} for fit in begun]
+            begun += [replace(fit, values={**fit.values, **others}) for fit, others in zip(begun, turned) if others]
             telling = self.space.training
         every, before, left, found = self.space.only(telling), model.places(predictions.active(result.fit.values)), [], []
         for fit in begun:
