@@ -12,8 +12,8 @@ from fmu_src.compiler.function import Instance
 from fmu_src.compiler.source import Source
 from fmu_src.compiler.types import INTEGER, Group, KernelFault, Layout, Number, Type, returned
 
-# As LLVM itself: 3 would only inline more.
-OPTIMISATION = 2
+# More would take 1.4 times as long to compile for 0.5 % fewer instructions an equilibrium, and 0.1 % more a motion.
+OPTIMISATION = 1
 
 
 @dataclass
