@@ -21,7 +21,8 @@ from benchmarks.blind_trial.generator.truth import TE, Bench  # noqa: E402
 from discrepancy.effects.torsional_resonance import filtered, transfer_of  # noqa: E402
 from discrepancy.model_file import load_model  # noqa: E402
 from discrepancy.prediction.bench import Bench as ToolBench  # noqa: E402
-from discrepancy.prediction.curves import OverTorque, signal  # noqa: E402
+from discrepancy.prediction.curves import signal  # noqa: E402
+from discrepancy.prediction.over_torque import OverTorque  # noqa: E402
 from discrepancy.problem import Record  # noqa: E402
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 240, endpoint=False)

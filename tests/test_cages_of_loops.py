@@ -8,8 +8,8 @@ import pytest
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import Cages, tells
-from discrepancy.prediction.curves import OverTorque
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.threads import Threads

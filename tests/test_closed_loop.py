@@ -10,8 +10,9 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.closed_loop import is_closed, joined_after, uncertain
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverTorque, loop_change, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.defined_samples import defined_at
+from discrepancy.prediction.over_torque import OverTorque, loop_change
 from discrepancy.problem import Record
 from orchestrator.settings import Setting
 from studies.hysteresis import one_angle, torque_way

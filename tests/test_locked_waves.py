@@ -7,8 +7,8 @@ import pytest
 
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverTorque
 from discrepancy.prediction.locked_waves import LockedWaves
+from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
 

@@ -11,10 +11,11 @@ from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import Cages, likeliest, resultant, weights
 from discrepancy.prediction.conditions import distinct_conditions, row_conditions
-from discrepancy.prediction.curves import OverAngle, level_of, signal
+from discrepancy.prediction.curves import level_of, signal
 from discrepancy.prediction.fewer import ENOUGH, fewer
 from discrepancy.prediction.fineness import EVERY_SAMPLE, SOLVED, Fineness
 from discrepancy.prediction.observe import ripples_of_cages
+from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.problem import Record
 from fmu_src.threads import Threads
 

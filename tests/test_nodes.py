@@ -5,9 +5,11 @@ import pytest
 
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverAngle, OverTorque, loop_change, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fineness import SEEN, Fineness, fast_noise
 from discrepancy.prediction.observe import hysteresis, transmission_error
+from discrepancy.prediction.over_angle import OverAngle
+from discrepancy.prediction.over_torque import OverTorque, loop_change
 from discrepancy.prediction.support import BANDS, AngleNodes, angle_nodes, banded_nodes, reversals, torque_nodes
 from discrepancy.problem import Record
 

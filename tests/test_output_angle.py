@@ -9,8 +9,9 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import LAG_SHARE
-from discrepancy.prediction.curves import OverAngle, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record

@@ -8,8 +8,9 @@ import pytest
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import angles_of
-from discrepancy.prediction.curves import OverAngle, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.prediction.stations import own_stations, shared_stations
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record

@@ -9,8 +9,8 @@ from discrepancy.model_file import load_model
 from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cage_ripples import cage_ripples
-from discrepancy.prediction.curves import OverAngle
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.prediction.twins import Twins, corners, places_of
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record

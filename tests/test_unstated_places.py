@@ -11,7 +11,7 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverTorque
+from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import UnstatedPlaces, fewer_samples, locked
 from discrepancy.problem import Record

@@ -8,7 +8,8 @@ import pytest
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.prediction.angle_zeros import best_zeros
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.curves import OverAngle, signal
+from discrepancy.prediction.curves import signal
+from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.problem import Parameter, Record
 from reducers.reducer import load_reducer
 

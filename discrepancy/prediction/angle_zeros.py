@@ -10,9 +10,10 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cage_ripples import cage_ripples
 from discrepancy.prediction.cages import LONG
 from discrepancy.prediction.conditions import angle_zero, turns_of
-from discrepancy.prediction.curves import OverAngle, shifted_errors, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.over_angle import OverAngle, shifted_errors
 from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import gain
 from discrepancy.problem import ERROR, ORDERS, Record

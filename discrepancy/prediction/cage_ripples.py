@@ -9,7 +9,9 @@ import numpy as np
 
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, identity
-from discrepancy.prediction.curves import OverAngle, OverTorque, nodes_of, signal
+from discrepancy.prediction.curves import nodes_of, signal
+from discrepancy.prediction.over_angle import OverAngle
+from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.support import angle_nodes
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats

@@ -9,8 +9,10 @@ from discrepancy.held_names import HELD
 from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.cage_ripples import cage_ripples, locked_ripples
 from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
-from discrepancy.prediction.curves import OverAngle, OverTorque, coarse_loop_change, error_change, loop_change, signal
+from discrepancy.prediction.curves import signal
 from discrepancy.prediction.lives import fresh
+from discrepancy.prediction.over_angle import OverAngle, error_change
+from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change, loop_change
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats

@@ -21,7 +21,6 @@ from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
 from discrepancy.prediction.conditions import LAG_SHARE, Values, angles_of, at_rest, distinct_conditions, identity
-from discrepancy.prediction.curves import glimpsed_angles, glimpsed_error, loop_error
 from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
@@ -32,6 +31,8 @@ from discrepancy.prediction.model_error import LOOPS, with_error
 from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
+from discrepancy.prediction.over_angle import glimpsed_angles, glimpsed_error
+from discrepancy.prediction.over_torque import loop_error
 from discrepancy.prediction.placed_beside import PlacedBeside
 from discrepancy.prediction.stations import shared_stations
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked

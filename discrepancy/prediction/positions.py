@@ -4,8 +4,9 @@ import numpy as np
 
 from discrepancy.effects.locked_position import COMPONENTS
 from discrepancy.prediction.bench import HELD_ANGLES, Bench
-from discrepancy.prediction.curves import OverTorque, nodes_of
+from discrepancy.prediction.curves import nodes_of
 from discrepancy.prediction.lives import SHORT_CYCLE
+from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.torque_way import way
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record

@@ -1,0 +1,203 @@
+"""Signals of the running bench over the output's angle, transmission error above all."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from discrepancy.prediction.bench import Bench, Starts
+from discrepancy.prediction.conditions import Values, angle_zero, angles_of, condition_of, places_of_zero, zero_of
+from discrepancy.prediction.curves import nodes_of_slopes, signal
+from discrepancy.prediction.stations import Stations, own_stations
+from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, angle_nodes, banded_nodes
+from discrepancy.prediction.units import Condition
+from discrepancy.problem import NEAR, Record
+from fmu_src.arrays import Floats
+
+# Fewer samples than these are computed where they are.
+LEAST_SAMPLES = 16
+# Of what a prediction may err, what moving it to where the record's angle 0 lies may add; where anchors would have to stand closer
+# than this share of the samples' distance, there are none.
+FIRMLY, LEAST_SHARE = 0.1, 0.01
+# Decimals of an angle [rad] to which outputs that lag alike stand in one place.
+ALIKE = 10
+# Where a pattern lies is seen at some thousand nodes a turn.
+LEVEL_OF_A_PATTERN = 2
+
+
+class Support(NamedTuple):
+    """``angles`` [rad] at which a curve is computed, how the record's ``samples`` follow from a series there, and near which runs it ``starts``."""
+
+    angles: Floats
+    samples: Callable[[Floats], Floats]
+    starts: Starts | None
+
+
+@dataclass(frozen=True)
+class OverAngle:
+    """Column ``name`` of the running bench (``studies.coupled.COLUMNS``); cages ``cage`` ahead [rad]."""
+
+    bench: Bench
+    record: Record
+    name: str
+    cage: float = 0.0
+
+    @cached_property
+    def condition(self) -> Condition:
+        return condition_of(self.bench, self.record)
+
+    def exact(self) -> "OverAngle":
+        return self
+
+    def nodes(self, level: int) -> AngleNodes | None:
+        angles, direction = angles_of(self.bench, self.record, 0.0), self.condition.direction
+        if level >= 0 or np.ptp(angles) < WHOLE * 2.0 * np.pi:
+            return angle_nodes(angles, direction, max(level, 0))
+        topology = self.bench.reducer.topology
+        nodes = banded_nodes(topology.lobes, topology.pins, level, direction)
+        return nodes if len(nodes.angles) < WORTHWHILE * len(angles) else None
+
+    def places(self, values: Values) -> Floats:
+        return angles_of(self.bench, self.record, zero_of(self.bench, self.record, values))
+
+    def unchanged(self, values: Values) -> dict[str, float]:
+        return {name: values[name] for name in places_of_zero(self.record) if name in values}
+
+    def run(self, values: Values, nodes: AngleNodes) -> Floats:
+        return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
+
+    def directly(self, values: Values) -> Floats:
+        at = self.support(None, values)
+        return at.samples(self.bench.column(self.name, self.condition, values, at.angles, self.cage, at.starts))
+
+    def starts(self, values: Values, anchor: float) -> Starts:
+        """Angles of runs near that with its angle 0 at ``anchor`` [rad]."""
+        near, distance = NEAR.get(), self.anchors()
+        beside = anchor if near is None else self.anchored({**values, **near})[0]
+        return self.at_stations(beside), self.at_stations(distance * round(anchor / distance) if distance else anchor)
+
+    def seen(self, at: Callable[[Floats | float], Floats]) -> Floats:
+        """An encoder on the output turns with the error itself: a sample is shown at the input's angle over the ratio and the error there.  Orders of
+        a large one show at twice themselves so (an order 80 of 20 arcsec: 0.08 arcsec of order 160)."""
+        found = at(0.0)
+        if not self.record.of_output or self.name != "transmission_error" or len(found) < LEAST_SAMPLES:
+            return found
+        angles = self.places({})
+        order = np.argsort(angles, kind="stable")
+        steps, behind = np.diff(angles[order]), found - found.mean()
+        if steps.min() <= 0.0 or np.abs(behind).max() * np.median(np.abs(np.diff(found[order])) / steps) < self.bench.allowed(self.record):
+            return found
+        # Twice is enough: what is left is the third power of it.
+        return at(-behind)
+
+    def support(self, nodes: AngleNodes | None, values: Values) -> Support:
+        """``nodes``, else its stations, near their anchor."""
+        if nodes is not None:
+            places = self.places(values)
+            return Support(nodes.angles, lambda series: nodes.samples(series, places), None)
+        anchor, beyond = self.anchored(values)
+        return Support(self.at_stations(anchor), lambda series: self.from_stations(series, beyond), self.starts(values, anchor))
+
+    def beside(self, values: Values, base: Values, angles: Floats, starts: Starts | None = None) -> Floats:
+        """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
+        high, low = (self.bench.error_beside(self.condition, v, angles, base, angles, starts=starts) for v in (values, base))
+        return high - low
+
+    def at_stations(self, zero: float) -> Floats:
+        """Angles [rad] of the stations in the order in which they are passed, with the record's angle 0 at ``zero``."""
+        return self.stations.angles[:: self.condition.direction] + zero
+
+    def from_stations(self, series: Floats, beyond: float) -> Floats:
+        """The record's samples of a ``series`` there, ``beyond`` [rad] further on."""
+        return self.stations.samples(series[:: self.condition.direction], beyond)
+
+    def anchored(self, values: Values) -> tuple[float, float]:
+        """One of few places [rad] for the record's angle 0, and how far it is from there: runs are shared by all zeros near one.
+
+        Roughly, or of the base model: kinks of a large effect would be where their place is not, and its direction with them.
+        """
+        zero, fineness = zero_of(self.bench, self.record, values), self.bench.fineness
+        loose = fineness is None or fineness.rough or not self.bench.relevant(values, True)
+        distance = self.anchors() if loose else 0.0
+        anchor = distance * round(zero / distance) if distance else round(zero, ALIKE)
+        return anchor, zero - anchor if distance else 0.0
+
+    @cached_property
+    def stations(self) -> Stations:
+        """Where its samples are computed: with other records, if what lies between is known as well as it must be."""
+        shared = self.shared_stations
+        near = not shared.off.any() or 2.0 * float(np.abs(shared.off).max()) <= self.anchors()
+        return shared if near else own_stations(angles_of(self.bench, self.record, 0.0))
+
+    @cached_property
+    def shared_stations(self) -> Stations:
+        angles = angles_of(self.bench, self.record, 0.0)
+        return self.bench.stations.get(angles.tobytes()) or own_stations(angles)
+
+    def anchors(self) -> float:
+        """Distance [rad] of the places at which angle 0 is anchored, so that what lies between is known as well as it must be; 0: everywhere."""
+        angles = self.shared_stations.angles
+        if self.bench.fineness is None or self.condition.hours > 0.0 or len(angles) < LEAST_SAMPLES or np.diff(angles).min() <= 0.0:
+            return 0.0
+        allowed = min(map(self.bench.allowed, self.shared_stations.sharers), default=self.bench.allowed(self.record))
+
+        def found() -> float:
+            # Wherever the cages stand: whoever asks first, all have the same.
+            series = self.bench.column(self.name, self.condition, {}, angles[:: self.condition.direction])
+            error = SplineNodes(angles).error(series[:: self.condition.direction])
+            share = FIRMLY * allowed / error if error > 0.0 else 1.0
+            if share <= LEAST_SHARE:
+                return 0.0
+            # By powers of two: other conditions have the same places.
+            return float(np.median(np.diff(angles)) * 2.0 ** np.floor(np.log2(2.0 / np.pi * np.arcsin(min(share, 1.0)))))
+
+        return self.bench.kept(("anchors", self.name, self.condition, allowed, angles.tobytes()), found)
+
+
+def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) -> list[Floats]:
+    """Transmission error [rad] of the record's samples for several places of its angle 0 [rad], from one run."""
+    curve = OverAngle(bench, record, "transmission_error")
+    # Nodes go a pitch beyond what they are for.
+    ends = curve.places({})[:, None] + [min(float(zeros.min()) + BEYOND, 0.0), max(float(zeros.max()) - BEYOND, 0.0)]
+    nodes = angle_nodes(ends, curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
+    assert nodes is not None
+    series = curve.run(values, nodes)
+    return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
+
+
+def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:
+    """What ``values`` change in the transmission error [rad] next to ``base``, to first order; None where that is not cheaper."""
+    curve = OverAngle(bench, record, "transmission_error")
+    if curve.condition.hours > 0.0:
+        return None
+    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
+    turned = zero_of(bench, record, values) != zero_of(bench, record, base)
+    if nodes is None and turned:
+        at = curve.support(None, base)
+        high, low = (
+            bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, at.angles, starts=at.starts) for v in (values, base)
+        )
+        return curve.from_stations(high - low, 0.0)
+    at = curve.support(nodes, values)
+    change = at.samples(curve.beside(values, base, at.angles, at.starts))
+    if turned:
+        # The angle from which the record counts: along the curve.
+        change += signal(curve, {**base, **curve.unchanged(values)}) - signal(curve, base)
+    return change
+
+
+def glimpsed_angles(bench: Bench, record: Record) -> Floats | None:
+    """The few angles [rad] at which a glimpse of a transmission error is had; None where these are not fewer, or first order is not cheaper."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = curve.nodes(COARSEST)
+    return None if nodes is None or curve.condition.hours > 0.0 else nodes.angles
+
+
+def glimpsed_error(bench: Bench, record: Record, values: Values, base: Values, first_order: bool) -> Floats:
+    """What ``values`` change in the transmission error [rad] next to ``base`` at ``glimpsed_angles``."""
+    curve = OverAngle(bench, record, "transmission_error")
+    nodes = curve.nodes(COARSEST)
+    assert nodes is not None
+    return curve.beside(values, base, nodes.angles) if first_order else curve.run(values, nodes) - curve.run(base, nodes)
