@@ -17,10 +17,11 @@ from pathlib import Path
 from reducers.reducer import load_reducer
 from studies.coupled_master import CoupledMaster
 from studies.hysteresis import hysteresis
-from studies.life import Life, LifeSettings, live, wear_figures
+from studies.life import Life, LifeSettings, live
 from studies.modes import modes
 from studies.pair import make_pair
 from studies.solve import measure
+from studies.wear_figures import wear_figures
 
 DESIGNS = ("RV20E-121", "BX-40E")
 HOURS = 10_000.0

@@ -18,8 +18,10 @@ from orchestrator.settings import Setting
 from reducers.reducer import Reducer, load_reducer
 from rv_plant.faults import DYNAMIC
 from studies.coupled_master import CoupledMaster
-from studies.life import HOUR, Life, LifeSettings, depths, live, run_cycle
+from studies.life import Life, LifeSettings, live
+from studies.meshing_cycle import HOUR, run_cycle
 from studies.pair import Pair, make_pair
+from studies.wear_figures import depths
 
 TOLERANCE = 0.01
 TOLERANCES = (0.1, 0.03, TOLERANCE, 0.003)

@@ -11,8 +11,9 @@ from dataclasses import replace
 from orchestrator.settings import parse_setting
 from reducers.reducer import load_reducer
 from studies.coupled_master import CoupledMaster
-from studies.life import Life, LifeSettings, live, wear_figures
+from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
+from studies.wear_figures import wear_figures
 from wear_fmu.variables import Resolution
 
 FIGURES = ("inner_raceway_um", "outer_raceway_um", "disc_flank_um")

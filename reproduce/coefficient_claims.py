@@ -17,7 +17,8 @@ from reproduce.claim import (
     states,
 )  # fmt: skip
 from reproduce.context import BX, Context
-from studies.life import run_cycle, wear_figures
+from studies.meshing_cycle import run_cycle
+from studies.wear_figures import wear_figures
 from wear_fmu.pin_on_disc import (
     PinOnDiscTest,
     instantaneous_coefficient,

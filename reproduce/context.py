@@ -23,7 +23,8 @@ from reducers.completion.known import known_numbers
 from reducers.reducer import Reducer, load_reducer
 from reproduce.contacts import Contacts, contacts_of
 from studies.hysteresis import LOST_MOTION_SHARE, Hysteresis, hysteresis
-from studies.life import Life, LifeSettings, live, run_cycle
+from studies.life import Life, LifeSettings, live
+from studies.meshing_cycle import run_cycle
 from studies.pair import Pair, make_pair
 from studies.solve import ARCSEC, record_turn
 

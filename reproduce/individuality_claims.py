@@ -13,7 +13,7 @@ from pages.charts import Curve, chart
 from pages.look import Figure
 from reproduce.claim import INDIVIDUALITY, REPRODUCED, Finding, Number, states
 from reproduce.context import RV, Context
-from studies.life import run_cycle
+from studies.meshing_cycle import run_cycle
 
 HOURS = 50.0
 PERCENT = 100.0

@@ -15,8 +15,9 @@ from reproduce.claim import (
     states,
 )  # fmt: skip
 from reproduce.context import RV, Context, LifeRun
-from studies.life import HOUR, SURFACES, wear_figures
+from studies.meshing_cycle import HOUR
 from studies.pair import CONNECTIONS
+from studies.wear_figures import SURFACES, wear_figures
 from wear_fmu.wear_laws import run_in_factor
 
 COMPUTED, MEASURED = (3.97, 3.11), (12.0, 5.6)

@@ -16,12 +16,13 @@ from reducers.completion.complete import Completion
 from reducers.completion.file import reducer_at
 from reducers.reducer import Reducer
 from studies.hysteresis import hysteresis
-from studies.life import run_cycle, wear_figures
+from studies.meshing_cycle import run_cycle
 from studies.modes import FLOATING, modes
 from studies.pair import make_pair
 from studies.solve import ARCSEC, record_turn
 from studies.standard.evaluation import read_efficiency, read_no_load_torque
 from studies.standard.procedures import rated_of, ratio_of, run
+from studies.wear_figures import wear_figures
 
 # Equilibria per crank turn; orders of the output up to half of it times the lobes are seen.
 POSITIONS = 48

@@ -17,9 +17,10 @@ from fmu_src.percent import percent
 from orchestrator.settings import Setting, parse_setting
 from reducers.reducer import Reducer
 from rv_plant.gear_stage import total_ratio
-from studies.life import WATCHED, run_cycle, wear_figures
+from studies.meshing_cycle import run_cycle
 from studies.modes import modes
 from studies.pair import Pair, make_pair
+from studies.wear_figures import WATCHED, wear_figures
 
 # Volumes that are compared, by their names in the wear unit, and depths, by their names in a life.
 VOLUMES = ("flank_volume", "inner_race_volume", "outer_race_volume")

@@ -9,7 +9,7 @@ within ``tolerance`` of the depth at the end.  The finer run is kept.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,16 +18,11 @@ import numpy as np
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from rv_plant.faults import DYNAMIC
-from studies.coupled_master import CoupledMaster
+from studies.meshing_cycle import HOUR, drift_of, run_cycle, swing_over_turn
 from studies.pair import Pair
-from studies.solve import ARCSEC, Turn, measure
+from studies.solve import Turn, measure
 from studies.swing import swing_damping
-
-HOUR = 3600.0
-# Surfaces of the wear unit that a result keeps, by the names of its table.
-SURFACES = ("disc_wear", "pin_wear", "pin_even_wear", "inner_race_wear", "outer_race_wear")
-# What the error estimate looks at: deepest wear of each kind of surface.
-WATCHED = ("disc_flank_um", "pin_um", "inner_raceway_um", "outer_raceway_um")
+from studies.wear_figures import SURFACES, WATCHED, wear_figures
 
 # Jumps of the first run are this over the root of the tolerance: its error falls with their number to the power of 1 to 2.
 FIRST_JUMPS = 0.3
@@ -43,11 +38,6 @@ MOST_JUMPS = 256
 MOST_ASKED = 10_000
 # From this many jumps on, an error that hardly falls is that of the positions per turn.
 MANY_JUMPS = 32
-
-# Harmonics of a profile that place its peak.
-SMOOTH_HARMONICS = 12
-# Points per bin when the peak between bins is looked for.
-FINE = 16
 
 
 @dataclass(frozen=True)
@@ -158,135 +148,6 @@ class Life:
         hours = sorted(swings)
         found: list[float] = np.interp(self.hours, hours, [swings[hour] for hour in hours]).tolist()
         return found
-
-
-def wear_figures(record: np.ndarray) -> dict[str, float]:
-    """Deepest wear and its place, from a wear unit's record.
-
-    Places in degrees: on an inner raceway from the lobe's eccentric direction, on an
-    outer one from the outward radial of its hole, both counted the way the cranks turn;
-    on a tooth the local phase, 0 root and 180 tip.
-    """
-    sense = -1.0 if record["crank_speed"][0] < 0.0 else 1.0
-    inner, inner_angle = peak_of_circle(record["inner_race_wear"][0])
-    outer, outer_angle = peak_of_circle(record["outer_race_wear"][0])
-    teeth = record["disc_wear"][0].reshape(-1, record["slide"].shape[-1])
-    flank, phase = peak_of_circle(teeth)
-    return {
-        "inner_raceway_um": inner * 1e6,
-        "outer_raceway_um": outer * 1e6,
-        "disc_flank_um": flank * 1e6,
-        "pin_um": float(record["pin_depth"].max()) * 1e6,
-        "inner_peak_deg": signed_degrees(sense * inner_angle),
-        "outer_peak_deg": signed_degrees(sense * outer_angle),
-        "disc_peak_deg": abs(signed_degrees(phase)),
-    }
-
-
-def peak_of_circle(profiles: np.ndarray) -> tuple[float, float]:
-    """(depth, angle [rad]) of the deepest place among closed profiles (..., bins).
-
-    Both are those of the profile's first harmonics.  A jump samples the roller cage at
-    the few hundred phases of its cycles and leaves a ripple of a few tenths of a
-    percent that real hours average out; it would also shift the top of a broad hump by
-    degrees.  A tooth's profile, zero at both roots, counts as closed.
-    """
-    rows = profiles.reshape(-1, profiles.shape[-1])
-    row = rows[rows.max(axis=1).argmax()]
-    if row.max() == 0.0:
-        return 0.0, 0.0
-    harmonics = np.fft.rfft(row)
-    harmonics[SMOOTH_HARMONICS + 1 :] = 0.0
-    fine = np.fft.irfft(harmonics, FINE * row.size) * FINE
-    # Bin i covers [i, i + 1): its value stands in its middle.
-    return float(fine.max()), 2.0 * np.pi * (fine.argmax() / FINE + 0.5) / row.size
-
-
-def signed_degrees(angle: float) -> float:
-    """Angle in degrees within (-180, 180]."""
-    degrees = float(np.degrees(angle)) % 360.0
-    return degrees - 360.0 if degrees > 180.0 else degrees
-
-
-def run_cycle(pair: Pair, hours: float) -> tuple[float, Floats]:
-    """One full meshing cycle that counts as ``hours``; with a duty, cycles of its segments by their shares.
-
-    Returned are the hours of the last cycle and its transmission error after each step [rad].
-
-    Segments really alternate all the time.  Run one after the other, the first would find
-    the surfaces less run in than the last, an error that goes with the hours.  There and
-    back (1 2 3 2 1, the outer ones by halves) all have the same mean age, and it goes with
-    the hours' square.
-    """
-    if not pair.duty:
-        return hours, count_cycle(pair, hours)
-    *outer, last = pair.duty
-    there = [(segment, 0.5 * segment.share) for segment in outer]
-    for segment, share in [*there, (last, last.share), *reversed(there)]:
-        pair.set_operation(segment.speed, segment.torque)
-        span, errors = hours * share, count_cycle(pair, hours * share)
-    return span, errors
-
-
-def count_cycle(pair: Pair, hours: float) -> Floats:
-    """One full meshing cycle at the present speed and torque; the transmission error after each step [rad].
-
-    Wear rises through the first crank turn and falls through one turn more.  A contact that the cycle meets early
-    in each turn is then as old on average as one that it meets late; cut off sharply, the two would differ by
-    the wear of a turn.
-    """
-    positions = pair.positions
-    steps = pair.reducer.topology.lobes * positions
-    full = hours * HOUR / (steps * pair.master.step_size)
-    rise = (np.arange(positions) + 0.5) / positions
-    errors = [count_steps(pair, full * share, 1) for share in rise]
-    errors.append(count_steps(pair, full, steps - positions))
-    errors += [count_steps(pair, full * share, 1) for share in rise[::-1]]
-    return np.concatenate(errors)
-
-
-def count_steps(pair: Pair, acceleration: float, steps: int) -> Floats:
-    """Steps whose wear, time and distance count ``acceleration`` times; the transmission error after each [rad]."""
-    pair.wear.set("acceleration", acceleration)
-    errors = np.zeros(steps)
-    if isinstance(pair.master, CoupledMaster) and pair.master.scheme == "gauss-seidel":
-        pair.master.run_compiled(steps, errors)
-        return errors
-    buffer, done = np.zeros(1), pair.master.steps_done
-    read = pair.plant.reader(pair.plant.signal("transmission_error").references[:1], buffer)
-
-    def keep() -> None:
-        read()
-        errors[pair.master.steps_done - 1 - done] = buffer[0]
-
-    pair.master.run(steps, keep)
-    return errors
-
-
-def drift_of(errors: Floats, positions: int) -> float:
-    """How far the output went on by wear [rad] in a cycle, which ends with a crank turn where it began."""
-    turn = len(errors) - positions
-    return float((errors[turn:] - errors[:positions]).mean())
-
-
-def swing_over_turn(errors: Floats, positions: int, before: Sequence[float], now: Sequence[float]) -> float:
-    """Peak to peak [arcsec] over a turn of the output, less how the output falls behind while the jump wears it.
-
-    ``before`` and ``now``: hours from and to, and drift [rad], of the jump before and of this one.  With a times the root
-    of the hours and b times the hours both are met: parts that run in wear fast at first, which a straight line would leave in the error.
-    """
-    rows = np.array([[math.sqrt(end) - math.sqrt(max(start, 0.0)), end - start] for start, end, _ in (before, now)])
-    a, b = np.linalg.solve(rows, [before[2], now[2]])
-    turn = len(errors) - positions
-    passed = np.arange(turn) - 0.5 * positions
-    hours = now[0] + (now[1] - now[0]) * np.clip(passed / turn, 0.0, 1.0)
-    return float(np.ptp(errors[:turn] - a * np.sqrt(np.maximum(hours, 0.0)) - b * hours)) * ARCSEC
-
-
-def depths(pair: Pair) -> np.ndarray:
-    """The watched depths, one number per kind of surface [um]."""
-    figures = wear_figures(pair.wear.record())
-    return np.array([figures[name] for name in WATCHED])
 
 
 def live(pair: Pair, life: Life, progress: Callable[[Life], None], keep: Callable[[Life], None]) -> Life:

@@ -23,7 +23,8 @@ from orchestrator.settings import NUMBER
 from reducers.reducer import Reducer
 from rv_reducer.exchange import WEAR_TO_PLANT
 from studies.coupled_master import CoupledMaster
-from studies.life import HOUR, Life, LifeSettings, live
+from studies.life import Life, LifeSettings, live
+from studies.meshing_cycle import HOUR
 from studies.pair import make_pair
 from wear_fmu.contacts import publish_profiles
 

@@ -5,7 +5,7 @@ import pytest
 
 from fmu_src.faults import InputFault
 from studies.duty import Segment, load_duty
-from studies.life import run_cycle
+from studies.meshing_cycle import run_cycle
 from studies.pair import make_pair
 
 FILE = """

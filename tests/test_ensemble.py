@@ -23,7 +23,7 @@ from studies.ensemble.member import run
 from studies.ensemble.sampling import independent_rows, points, tasks_of, values_of
 from studies.ensemble.store import Store, content_of
 from studies.ensemble.summary import censored, life_hours, sensitivity, share_beyond, summarise
-from studies.life import count_cycle
+from studies.meshing_cycle import count_cycle
 from studies.pair import make_pair
 
 TEXT = """

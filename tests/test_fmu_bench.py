@@ -17,7 +17,7 @@ from fmu_src.faults import InputFault, RunFault
 from fmu_src.threads import Once
 from orchestrator.fmu import Fmu
 from studies.coupled import COLUMNS
-from studies.life import HOUR
+from studies.meshing_cycle import HOUR
 
 ARCSEC = np.pi / 180.0 / 3600.0
 SHORT = Condition(209.0, 167.0)

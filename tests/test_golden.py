@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 from reducers.reducer import load_reducer
-from studies.life import Life, LifeSettings, live, wear_figures
+from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
 from studies.solve import measure
+from studies.wear_figures import wear_figures
 
 GOLDEN = Path(__file__).parent / "golden"
 REDUCERS = ("RV20E-121", "RV20E-121-rigid", "BX-40E", "BX-40E-rigid")

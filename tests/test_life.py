@@ -14,9 +14,11 @@ from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.figure_units import OVER_TURN
 from studies.kept_life import WantedLife, whole_life
-from studies.life import HOUR, Life, LifeSettings, depths, live, peak_of_circle, run_cycle
+from studies.life import Life, LifeSettings, live
+from studies.meshing_cycle import HOUR, run_cycle
 from studies.pair import make_pair
 from studies.passes import before_of, pass_of
+from studies.wear_figures import depths, peak_of_circle
 
 # A sixth of the usual positions per turn, and no equilibria between them: the jumps, not the angles, are under test.
 COARSE, UNDIVIDED = 12, Setting("largest_crank_step", 0.6)

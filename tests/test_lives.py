@@ -12,7 +12,8 @@ from discrepancy.prediction.observe import OBSERVED, loop, surface_of
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from studies.hysteresis import LOST_MOTION_SHARE
-from studies.life import HOUR, peak_of_circle
+from studies.meshing_cycle import HOUR
+from studies.wear_figures import peak_of_circle
 
 RATED = Condition(209.44, 167.0)
 HOURS = [100.0 * HOUR, 400.0 * HOUR]

@@ -12,7 +12,8 @@ from reducers.reducer import load_reducer
 from studies.coupled_master import CoupledMaster
 from studies.figure_units import OVER_TURN, WHAT_IS_OVER_TURN, WINDOW
 from studies.kept_life import WantedLife, whole_life
-from studies.life import LifeSettings, drift_of, run_cycle, swing_over_turn
+from studies.life import LifeSettings
+from studies.meshing_cycle import drift_of, run_cycle, swing_over_turn
 from studies.pair import make_pair
 from studies.report.findings import cards, sentences
 from studies.report.result import Result

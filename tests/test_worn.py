@@ -10,8 +10,9 @@ from fmu_src.start_arrays import decode, encode
 from orchestrator.component import InProcess
 from orchestrator.fmu import Fmu
 from studies.coupled_master import CoupledMaster
-from studies.life import Life, LifeSettings, live, wear_figures
+from studies.life import Life, LifeSettings, live
 from studies.pair import make_pair
+from studies.wear_figures import wear_figures
 from studies.worn import hours_of, worn_reducer
 
 HOURS = 5000.0

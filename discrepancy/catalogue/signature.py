@@ -23,7 +23,7 @@ from fmu_src.arrays import Floats
 from reducers.reducer import load_reducer
 from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE
-from studies.life import peak_of_circle
+from studies.wear_figures import peak_of_circle
 
 ORDERS = (1, 2, 39, 40, 78, 80, 120, 121, 156, 234, 279, 361, 1440, 1560)
 # Samples of one turn of the output; the mesh's order 1560 needs more than 3120.

@@ -11,7 +11,7 @@ from fmu_src.arrays import Floats, copied
 from fmu_src.threads import Once
 from reducers.reducer import Reducer
 from studies import coupled
-from studies.life import HOUR
+from studies.meshing_cycle import HOUR
 from wear_fmu.variables import Resolution
 
 # A turn of the cranks in full cycles: depths within 0.2 % (36: 0.5 %).

@@ -18,7 +18,7 @@ from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from rv_plant.locked_output import ELEMENTS, locked_output_loop
 from studies.hysteresis import LOST_MOTION_SHARE
-from studies.life import peak_of_circle
+from studies.wear_figures import peak_of_circle
 
 STEEL = 7850.0
 # Samples of one output turn from which an order spectrum is taken.

@@ -14,9 +14,11 @@ from studies.duty import Segment
 from studies.ensemble.ensemble_file import DUTY_FACTORS
 from studies.ensemble.figures import Outcome
 from studies.hysteresis import LOST_MOTION_SHARE
-from studies.life import HOUR, Life, LifeSettings, live, wear_figures
+from studies.life import Life, LifeSettings, live
+from studies.meshing_cycle import HOUR
 from studies.pair import Pair, make_pair
 from studies.solve import ARCMIN, ARCSEC
+from studies.wear_figures import wear_figures
 
 # Places of a turn at which lost motion is taken.
 PLACES = 4
