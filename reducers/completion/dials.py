@@ -93,8 +93,8 @@ def dials_of(pins: int, rollers: int, diameter: bool, lost_motion: float) -> lis
     ]  # fmt: skip
 
 
-def gap_at(dial: Dial, value: float) -> Dial:
-    """The dial of the flanks' gap, moved to ``value`` [arcmin]; its range reaches there."""
+def dial_at(dial: Dial, value: float) -> Dial:
+    """The dial moved to ``value``; its range reaches there."""
     return replace(dial, value=value, low=min(dial.low, value), high=max(dial.high, value))
 
 
