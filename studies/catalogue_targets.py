@@ -33,6 +33,10 @@ class Target:
         return abs(self.miss) <= SAME * abs(self.asked)
 
     @property
+    def miss_words(self) -> str:
+        return f"{abs(self.miss):.3g} too {'much' if self.miss > 0.0 else 'little'}"
+
+    @property
     def words(self) -> str:
         return f"{self.name} {self.asked:g} {self.unit} asked, {self.reached:.3g} reached"
 
@@ -71,7 +75,7 @@ def held_against(found: Check) -> tuple[Check, list[Target]]:
     missed = [target for target in targets if not target.is_met]
     nearer = any(target.name != LOST_MOTION or not is_narrowest(given) for target in missed)
     doubts = [
-        f"{target.name} misses the catalogue's {target.asked:g} {target.unit} by {target.miss:+.3g} {target.unit}: "
+        f"{target.name} {target.reached:.3g} {target.unit} misses the catalogue's {target.asked:g} {target.unit}, {target.miss_words}: "
         + ("it was not made for it, or other numbers were changed since; complete it anew" if nearer else
            f"of {', '.join(PLAY)} each is given or the least of its range; look at what is given, or measure one of them")
         for target in missed
