@@ -627,7 +627,7 @@ def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_eff
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
     effect = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "candidates": ["crank_lobe_errors.crank_1"], "instead": [], "parameters": [],
               "share": "explains", "error": "", "held": ""}  # fmt: skip
-    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank lobe errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
+    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank eccentric errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
     folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
     folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
     folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9, "found_in": "/data/first"})

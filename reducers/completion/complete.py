@@ -34,7 +34,7 @@ RULES = {
     "input.speed": ("ratio times output speed", ""), "first_stage.ratio": ("ratio = 1 + pins z2/z1", ""),
     "first_stage.sun_teeth": ("fewest whole teeth from 10 on", ""), "wear.run_in_crank_speed": ("output speed times lobes", ""),
     "disc.mass": ("a steel plate with holes", "disc_solid"), "disc.inertia": ("radius of inertia 0.77 of the plate's", ""),
-    "crank.mass": ("two steel lobes and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the lobe's", ""),
+    "crank.mass": ("two steel eccentrics and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the eccentric's", ""),
     "carrier.mass": ("a steel plate", "carrier_bulk"), "carrier.inertia": ("radius of inertia 0.63 of the pin circle's", ""),
     "sun.inertia": ("a steel shaft as thick as the sun", "sun_length"),
 } | SUPPORT_RULES  # fmt: skip

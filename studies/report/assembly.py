@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_src.arrays import Floats, Points, Records
+from fmu_src.effect_words import effect_words
 from orchestrator.component import InProcess
 from pages import look
 from pages.look import Figure, Layout, Trace, path
@@ -148,7 +149,7 @@ def scale_bar(centre: complex, half: float, corner: complex) -> tuple[Trace, Lay
 
 
 def cranks(reducer: Reducer) -> list[Trace]:
-    """Holes, lobes and rollers of disc 1, and pitch circles of sun and planets."""
+    """Holes, eccentrics and rollers of disc 1, and pitch circles of sun and planets."""
     s, t = reducer.starts, reducer.topology
     inner, outer, roller, axis = (MM * s[k] for k in ("inner_race_radius", "outer_race_radius", "roller_radius", "crank_circle_radius"))
     seats = axis * directions(360.0 * np.arange(t.cranks) / t.cranks)
@@ -189,7 +190,7 @@ def parts_off(reducer: Reducer) -> list[PartsOff]:
         found += [
             flanks_off(reducer, now, d),
             circles_off(f"holes of disc {d + 1}", outer, middles, MM * ways * hole, d),
-            circles_off(f"lobes of the cranks at disc {d + 1}", inner, middles, MM * turn * (throw * np.exp(1j * turned) - now["eccentricity"]), d),
+            circles_off(f"eccentrics of the cranks at disc {d + 1}", inner, middles, MM * turn * (throw * np.exp(1j * turned) - now["eccentricity"]), d),
         ]
     seat = now["carrier_hole_error_radial"] + now["seat_radial_added"] + 1j * (now["carrier_hole_error_tangential"] + now["seat_tangential_added"])
     # A seat's own radius is nobody's number: half of the race above it stands for it.
@@ -255,7 +256,7 @@ def undrawn(reducer: Reducer, off: list[PartsOff]) -> list[str]:
                 continue
             without = parts_off(replace(reducer, starts=reducer.starts | {variable.name: variable.start}))
             if same(without, off):
-                told.append(f"{name.replace('_', ' ')} ({variable.path.rpartition('.')[2].replace('_', ' ')})")
+                told.append(f"{effect_words(name)} ({variable.path.rpartition('.')[2].replace('_', ' ')})")
     return told
 
 
