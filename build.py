@@ -16,8 +16,10 @@ import hashlib
 import os
 import subprocess
 import sys
+import threading
 import time
 import venv
+from collections.abc import Iterable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -28,6 +30,8 @@ REQUIREMENTS, FOR_TESTS = HERE / "requirements.txt", HERE / "requirements-test.t
 # What the measurements compare with, and what spreads ensembles.
 PEERS = ("scikit-sundae==1.2.0", "exudyn==1.13.6", "joblib==1.6.0", "SALib==1.6.0", "dask==2026.8.0", "distributed==2026.8.0")
 PIP = ("-m", "pip", "--disable-pip-version-check", "install", "--no-compile", "--no-deps")
+# What pip warns of for each package where a machine has indexes in folders and one of them lacks it: another has it, or pip ends with an error.
+OF_NO_USE = "is ignored: it is neither a file nor a directory"
 
 
 def set_up(for_tests: bool = False) -> None:
@@ -58,9 +62,13 @@ def say(text: str) -> None:
 def install(what: str, *arguments: str) -> None:
     """pip, with a line every few seconds that says how far it is."""
     count = sum(1 for line in Path(arguments[1]).read_text(encoding="utf-8").splitlines() if line) if arguments[0] == "-r" else 1
-    with subprocess.Popen([str(SCRIPTS / "python"), *PIP, *arguments], stdout=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
+    command = [str(SCRIPTS / "python"), *PIP, *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", errors="replace") as pip:
         told, fetched, installing, lines = time.monotonic(), 0, False, []
-        assert pip.stdout is not None
+        assert pip.stdout is not None and pip.stderr is not None
+        # Beside its progress: a pipe that nobody reads holds pip.
+        warnings = threading.Thread(target=pass_on, args=(pip.stderr,))
+        warnings.start()
         for line in pip.stdout:
             lines.append(line)
             # "Processing" where an index names files of this machine.
@@ -71,8 +79,16 @@ def install(what: str, *arguments: str) -> None:
             elif not installing and time.monotonic() - told > 3.0:
                 told = time.monotonic()
                 say(f"  {what}: fetching {fetched} of {count}")
+        warnings.join()
     if pip.returncode != 0:
         sys.exit("".join(lines[-5:]) + "build.py: pip could not install the packages; its message stands above")
+
+
+def pass_on(warnings: Iterable[str]) -> None:
+    """What pip warns of and fails by, but for ``OF_NO_USE``."""
+    for line in warnings:
+        if OF_NO_USE not in line:
+            say(line.rstrip())
 
 
 def is_done(stamp: Path, *parts: bytes) -> bool:

@@ -6,6 +6,7 @@ from typing import Any
 
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.model_file import SignalEntry
+from fmu_src.effect_words import effect_words
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Step:
 
     @property
     def label(self) -> str:
-        return " + ".join(name.replace("_", " ").replace(".", ": ") for name in self.effects)
+        return " + ".join(effect_words(name).replace(".", ": ") for name in self.effects)
 
     @property
     def left(self) -> dict[str, float]:

@@ -29,6 +29,7 @@ from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
 from fmu_src.effect import Effect
 from fmu_src.effect_check import UNITS, require_sound_effects
+from fmu_src.effect_words import effect_words
 from fmu_src.faults import InputFault, nearest
 from fmu_src.file_name import FILE_NAME
 from fmu_src.names import dotted, last_part, warn_of_old_name
@@ -127,7 +128,7 @@ class ModelFile:
     @property
     def in_words(self) -> str:
         """What measurements are held against: the model with its effects by name, or the base model where it has none."""
-        effects = ", ".join(name.replace("_", " ") for name in self.effects)
+        effects = ", ".join(map(effect_words, self.effects))
         return f"the model with {effects}" if effects else "the base model"
 
     def values(self) -> dict[str, float]:

@@ -33,6 +33,7 @@ from discrepancy.untold import origins_untold, parts_untold, parts_untold_before
 from discrepancy.usual_noise import UNMEASURED
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
+from fmu_src.effect_words import effect_words
 from fmu_src.threads import sharing_no_matrices
 from studies.hysteresis import torque_way
 
@@ -150,7 +151,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         names.setdefault(plainly(member), member)
     unexplained = answer.verdict in (INCOMPLETE, UNKNOWN)
     left = open_questions(answer, campaign) if unexplained else []
-    known = " and ".join(names).replace("_", " ") if fits.members else ""
+    known = effect_words(" and ".join(names)) if fits.members else ""
     start = f"{f'beside {known} ' if known else ''}something is left {answer.left_over}" if unexplained else ""
     if answer.verdict == BASE_OFF and len(names) < 2:
         off = ", ".join(as_told.told_name(e.name, as_told.tables_of(answer.model)) for e in answer.diagnosis.base_off)
@@ -192,7 +193,7 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
     nearest = min(others, key=lambda rival: rival.fit.chi2)
     worse = nearest.fit.chi2 - named.fit.chi2
     how = f"fits worse by {chi_text(worse)} in chi-square" if worse > 0.0 else "fits as well and was turned down for what the diagnosis says of it"
-    said = f"nearest to it comes {plainly(nearest).replace('_', ' ')}, which {how}"
+    said = f"nearest to it comes {effect_words(plainly(nearest))}, which {how}"
     # Alike in weight: how likely each is by now is told already.
     result = weighed(answer, campaign, [rival_of(one, 1.0) for one in (named, nearest)])
     if not result.proposals:

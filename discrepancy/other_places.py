@@ -1,6 +1,6 @@
 """Where an effect sits that one of several parts can have, and which other place would look like it.
 
-A diagnosis fits such an effect at the part that its choices name, the first.  With two cranks an error of one's lobe at one disc shows as that of the
+A diagnosis fits such an effect at the part that its choices name, the first.  With two cranks an error of one's eccentric at one disc shows as that of the
 other's lobe at the other disc, in every signal of the reducer as a whole: then no fit says which of both is to be opened.  Nor does one where the zero of
 the output's angle was found by the base model's pattern: it is as well a wave of that further on, with which the cranks have made half a turn.
 """

@@ -7,6 +7,7 @@ from discrepancy.campaign.design import Design
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.pairs import PAIRS, judge
 from discrepancy.model_file import ModelFile
+from fmu_src.effect_words import effect_words
 
 # Of an effect at one of several parts with which the reducer as a whole does the same.
 SAME_WITH_EACH = (
@@ -18,7 +19,7 @@ SAME_WITH_EACH = (
 def parts_untold(effects: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
     several = (effect for effect in effects if effect.get("other_places"))
-    return [f"at which part it is ({effect['name'].replace('_', ' ')} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
+    return [f"at which part it is ({effect_words(effect['name'])} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
 
 
 def parts_untold_before(file: ModelFile) -> list[str]:

@@ -78,7 +78,7 @@ TORQUE = ("output.load_torque", "crank.eccentricity")
 CONTACT = (math.sqrt(IN_SERIES), 1.0 / math.sqrt(IN_SERIES))
 RULES = (
     Rule("roller.radius", ("inner_race.radius", "outer_race.radius"), lambda n, t: 0.5 * (n["outer_race.radius"] - n["inner_race.radius"]),
-         "half of hole less lobe"),
+         "half of hole less eccentric"),
     Rule("inner_race.radius", ("outer_race.radius", "roller.radius"), lambda n, t: n["outer_race.radius"] - 2.0 * n["roller.radius"], "inside the rollers"),
     Rule("outer_race.radius", ("inner_race.radius", "roller.radius"), lambda n, t: n["inner_race.radius"] + 2.0 * n["roller.radius"], "around the rollers"),
     Rule("wear.run_in_crank_speed", ("input.speed", "first_stage.ratio"), crank_speed, "input.speed times lobes over the ratio"),

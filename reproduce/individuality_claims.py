@@ -120,35 +120,35 @@ def spread(row: np.ndarray) -> float:
     return float(row.max() - row.min())
 
 
-@states("I03", INDIVIDUALITY, "Eccentricity of one crank lobe",
-        "A throw 3 µm too large on one crank marks the raceways of that lobe and relieves its disc.")
+@states("I03", INDIVIDUALITY, "Throw of one crank eccentric",
+        "A throw 3 µm too large on one crank marks the raceways of that eccentric and relieves its disc.")
 def crank_eccentricity(context: Context) -> Finding:
     m = marks_of(context, "errors.crank.eccentricity[1,1]=3um")
     discs = m.lobes.mean(axis=1)
     return Finding(
         REPRODUCED, "Disc 1 is pushed off centre by one crank and held by the other: its bearings wear unequally, more at"
-        " the faulty lobe; its flanks and pins wear less. Disc 2 mirrors the bearings through the shared cranks. No single"
+        " the faulty eccentric; its flanks and pins wear less. Disc 2 mirrors the bearings through the shared cranks. No single"
         " pin stands out.", bearing_numbers(m),
-        [("the faulty lobe wears more than its disc's other", m.races[0, 0] > m.races[0, 1] + 5.0),
+        [("the faulty eccentric wears more than its disc's other", m.races[0, 0] > m.races[0, 1] + 5.0),
          ("its disc's flanks wear less", discs[0] < -10.0), ("the other disc's hardly", abs(discs[1]) < 5.0),
          ("no pin stands out on its disc", spread(m.pins[0]) < 5.0)],
         figures=[around(context, "eccentricity_races", "One throw 3 µm too large", m)],
     )  # fmt: skip
 
 
-@states("I04", INDIVIDUALITY, "Phase error of one crank lobe",
-        "A lobe turned by 3 mrad against its crank moves load from one disc to the other.")
+@states("I04", INDIVIDUALITY, "Phase error of one crank eccentric",
+        "An eccentric turned by 3 mrad against its crank moves load from one disc to the other.")
 def crank_phase(context: Context) -> Finding:
     m = marks_of(context, "errors.crank.phase[1,1]=0.003")
     discs = m.lobes.mean(axis=1)
     eccentricity = marks_of(context, "errors.crank.eccentricity[1,1]=3um")
     return Finding(
-        REPRODUCED, "The error lies along the load: the faulty lobe hands its load to the same crank's other lobe. One"
+        REPRODUCED, "The error lies along the load: the faulty eccentric hands its load to the same crank's other eccentric. One"
         " disc wears less and the other more by the same, which tells it from an error of the throw.",
         bearing_numbers(m),
-        [("the faulty lobe wears least of all bearings", m.races.argmin() == 0 and m.races[0, 0] < -30.0),
+        [("the faulty eccentric wears least of all bearings", m.races.argmin() == 0 and m.races[0, 0] < -30.0),
          ("its disc wears less, the other as much more", discs[0] < -10.0 and abs(discs[0] + discs[1]) < 5.0),
          ("several times the mark of the throw",
           np.abs(m.races).max() > 4.0 * np.abs(eccentricity.races).max())],
-        figures=[around(context, "phase_races", "One lobe turned by 3 mrad", m)],
+        figures=[around(context, "phase_races", "One eccentric turned by 3 mrad", m)],
     )  # fmt: skip

@@ -15,7 +15,7 @@ FAR_OFF, SEEDS = 4.0, (0, 1, 2, 3)
 MEASURED_80E, COMPUTED_80E = (60.07, 64.64), (56.15, 65.03)
 # An error of each kind, of the size that good parts have.
 ERRORS = {
-    "throw of one lobe 3 µm": "errors.crank.eccentricity[1,1]=3um", "phase of one lobe 2 arcmin": "errors.crank.phase[1,1]=2arcmin",
+    "throw of one eccentric 3 µm": "errors.crank.eccentricity[1,1]=3um", "phase of one eccentric 2 arcmin": "errors.crank.phase[1,1]=2arcmin",
     "one hole 3 µm": "errors.disc_hole.tangential[1,1]=3um", "one pin 3 µm thick": "errors.pin.radius[5]=3um",
     "equidistant modification 3 µm": "disc.equidistant_modification=3um", "shift modification -3 µm": "disc.shift_modification=-3um",
 }  # fmt: skip
@@ -82,9 +82,9 @@ def tolerances(context: Context) -> Finding:
     numbers += [held("prototypes off by", "%", None, 5.0),
                 held("tolerance of the throw, tightened over before: what it adds to the transmission error", "1", tightened[1] / tightened[0], 4.0 / 6.0)]
     return Finding(
-        CONDITIONAL, "Of errors of one size a lobe's throw changes the transmission error most, equidistant modification hardly: it changes the lost motion,"
-            " by more than any other error but that of a single proud pin, which closes the play. The prototypes' own errors are not public: the 5 % cannot"
-            " be held against anything.", numbers,
+        CONDITIONAL, "Of errors of one size an eccentric's throw changes the transmission error most, equidistant modification hardly: it changes the lost"
+            " motion, by more than any other error but that of a single proud pin, which closes the play. The prototypes' own errors are not public: the 5 %"
+            " cannot be held against anything.", numbers,
         [("throw changes the transmission error most", error_moved[throw] == max(error_moved.values())),
          ("equidistant modification changes it least", error_moved[equidistant] == min(error_moved.values())),
          ("equidistant modification changes lost motion most, a proud pin apart", lost_moved[equidistant] == max(shared.values())),

@@ -11,7 +11,7 @@ from studies.hysteresis import Hysteresis, hysteresis
 from studies.pair import make_pair
 from studies.solve import ARCSEC, record_turn
 
-# Standard deviations of good parts (assumed): throw of a lobe and places of holes and pins [m], phase of a lobe [rad].
+# Standard deviations of good parts (assumed): throw of an eccentric and places of holes and pins [m], phase of an eccentric [rad].
 THROW, PLACE, PHASE = 1.5e-6, 2e-6, 2e-4
 POSITIONS = 12
 

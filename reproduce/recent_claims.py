@@ -12,7 +12,7 @@ from reproduce.rig import SUMMARY
 from reproduce.unknowns import loop_spans
 
 ENCYCLOPEDIA = "entry of a public encyclopedia of robot parts, reviewed on 13 July 2026"
-# Of good parts (assumed): throw of a lobe, phase of one.
+# Of good parts (assumed): throw of an eccentric, phase of one.
 THROW, PHASE = "3um", "2arcmin"
 # Teeth of sun and planet of the RV-80E.
 SUN, PLANET = 10, 38

@@ -75,7 +75,7 @@ def compensation(context: Context) -> Finding:
 @states("L42", LITERATURE, "Orders of pins and discs", f"Bauer et al., ICIT 2025, 10.1109/ICIT63637.2025.10965256, by {SUMMARY}: of a cycloid drive of 46"
         " pins and 45 lobes orders 46 k from k = 1 on count, orders 45 k from k = 2 on.")
 def disc_orders(context: Context) -> Finding:
-    throw, ring = (context.output_turn(RV, *ERRORS[what]) for what in ("throw of one lobe +3 µm", "pin ring 5 µm eccentric"))
+    throw, ring = (context.output_turn(RV, *ERRORS[what]) for what in ("throw of one eccentric +3 µm", "pin ring 5 µm eccentric"))
     t = context.reducer(RV).topology
 
     def lowest(turn: np.ndarray, teeth: int, least: float) -> float:
@@ -84,8 +84,8 @@ def disc_orders(context: Context) -> Finding:
 
     pins, lobes = lowest(throw, t.pins, 0.5), lowest(ring, t.lobes, 0.5)
     return Finding(
-        REPRODUCED, "Two discs half a turn apart cancel what comes once a lobe and add what comes twice; a lobe of one crank belongs to one disc and does not"
-            " cancel.",
+        REPRODUCED, "Two discs half a turn apart cancel what comes once a lobe and add what comes twice; an eccentric of one crank belongs to one disc and does"
+            " not cancel.",
         [held("first multiple of the number of pins (error of a crank)", "1", pins, 1.0),
          held("first multiple of the number of lobes (ring off centre)", "1", lobes, 2.0),
          Number("order 39 of a ring off centre", "arcsec", amplitude(ring, t.lobes)), Number("order 78 of it", "arcsec", amplitude(ring, 2 * t.lobes))],

@@ -37,11 +37,11 @@ def eccentric_ring(size: float = 5e-6) -> tuple[str, ...]:
 
 
 ERRORS = {
-    "none": (), "throw of one lobe +3 µm": ("errors.crank.eccentricity[1,1]=3um",),
+    "none": (), "throw of one eccentric +3 µm": ("errors.crank.eccentricity[1,1]=3um",),
     "one hole of a disc 4 µm": ("errors.disc_hole.tangential[1,1]=-4um",),
     "pin ring 5 µm eccentric": eccentric_ring(), "pins 2 µm at random": random_pins(),
 }  # fmt: skip
-EXPECTED = {"none": (80, 3.46), "throw of one lobe +3 µm": (40, 4.98), "one hole of a disc 4 µm": (40, 6.05),
+EXPECTED = {"none": (80, 3.46), "throw of one eccentric +3 µm": (40, 4.98), "one hole of a disc 4 µm": (40, 6.05),
             "pin ring 5 µm eccentric": (78, 1.8)}
 
 
@@ -71,7 +71,7 @@ def orders(context: Context) -> Finding:
         REPRODUCED, "Cranks, discs and pins leave the orders they should (40, 78, 80), a planet off centre that of its turns (40). A sun off centre moves"
             " load between the cranks at 120 and leaves next to nothing at the output, planets being evenly spread. At 30 rpm nothing is dynamic; both ways"
             " differ. The measured amplitudes are not in what was read and belong to an unknown part quality.",
-        numbers, [("each error at its order", found["throw of one lobe +3 µm"] > 3.0 and found["pin ring 5 µm"
+        numbers, [("each error at its order", found["throw of one eccentric +3 µm"] > 3.0 and found["pin ring 5 µm"
             " eccentric"] > 1.0), ("the planet at its own", planet > 0.5 > 10.0 * still), ("the sun hardly", sun < 0.05 * planet),
             ("ways differ", abs(ways[0] - ways[1]) > 0.1)], figures=[figure],
     )  # fmt: skip
@@ -96,7 +96,7 @@ def initial_error(context: Context) -> Finding:
 @states("L11", LITERATURE, "Elastic share; modification", "Hu, Li, Zhu, Cui, Appl. Sci. 2020, 10(2), 481, 10.3390/app10020481: the elastic part was 25.28 %"
         " of the computed transmission error; a modified profile lowered the measured error by 47.22 %.")
 def elastic_share(context: Context) -> Finding:
-    errors = ERRORS["throw of one lobe +3 µm"] + ERRORS["pins 2 µm at random"]
+    errors = ERRORS["throw of one eccentric +3 µm"] + ERRORS["pins 2 µm at random"]
     full, light = (float(np.ptp(context.output_turn(RV, *errors, torque))) for torque in ("output.load_torque=167",
         "output.load_torque=1.67"))
     modified = float(np.ptp(context.output_turn(RV, *errors, *MODIFIED)))

@@ -1,12 +1,12 @@
 """Turning-arm needle bearing, roller by roller.
 
 A roller at angle a (in the frame of the disc, from the hole's outward radial) is
-squeezed by the shift u of the crank lobe against the hole:
+squeezed by the shift u of the crank's eccentric against the hole:
 
     d = u.e_r(a) - clearance - profile error (what both raceways lack there)
 
 K is the stiffness of the whole roller, both raceways in series.  Forces act on both
-rings along one line through the lobe's centre, so that force and moment balance.
+rings along one line through the eccentric's centre, so that force and moment balance.
 """
 
 import math
@@ -21,7 +21,7 @@ def variables(sizes: Sizes) -> list[Variable]:
     roller = sizes.over("disc", "crank", "roller")
     return [
         Variable("roller.profile_error", "input", "m", "what both raceways lack at a roller", **roller, nominal=1e-6),
-        length("inner_race.radius", "radius of the crank's lobe", 1e-4, 10.25e-3),
+        length("inner_race.radius", "radius of the crank's eccentric", 1e-4, 10.25e-3),
         length("outer_race.radius", "radius of the hole in the disc", 1e-4, 13.25e-3),
         length("roller.radius", "radius of the needle rollers", 1e-5, 1.5e-3),
         length("roller.length", "length of the needle rollers", 1e-5, 8e-3),

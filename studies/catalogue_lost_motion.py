@@ -1,81 +1,101 @@
-"""What the stiffness test reads of a completed reducer, and the gap of the flanks that would make its lost motion the catalogue's."""
+"""The gap of the flanks that makes the lost motion of a completed reducer the catalogue's, and what else is made smaller where no gap does."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from enum import Enum
+from typing import NamedTuple
 
 from fmu_src.faults import InputFault, RunFault
 from orchestrator.settings import parse_setting
-from reducers.completion.complete import Completion, complete
+from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import reducer_at
-from reducers.completion.given import GAP, Given
+from reducers.completion.given import GAP, PLAY, Given
 from reducers.reducer import Reducer
 from studies.catalogue_stiffness import as_stiff_as
-from studies.hysteresis import Hysteresis, hysteresis
+from studies.hysteresis import hysteresis
 from studies.secants import size_for
 
-# As near as a catalogue's figure is to be met, as a share of it, and steps until then: lost motion grows evenly with the gap.
+# As near as a catalogue's figure is to be met, as a share of it, and steps until then: lost motion grows evenly with gap, clearance and play.
 NEAR, MOST_STEPS = 2e-3, 6
-# Of the gap, between which its slope is taken [um].
+# Of a size, between which its slope is taken [um].
 FIRST = 1.0
-
-
-@dataclass(frozen=True)
-class Tested:
-    """Lost motion [arcmin] and torsional stiffness [N m/arcmin] of a completed reducer; ``gap`` [um] makes the former the catalogue's,
-    None: no gap does, with none it is ``least`` [arcmin]."""
-
-    lost_motion: float
-    stiffness: float
-    gap: float | None
-    least: float
+# What is smaller than it ever is where even the least of all ranges leaves too much.
+CLEARANCE = "bearing.clearance"
 
 
 class Meets(Enum):
-    """Whether the gap of the flanks is to make the catalogue's lost motion; ``IF_IT_CAN``: where none does it stays the rule's."""
+    """Whether gap, clearance and play are to make the catalogue's lost motion; ``AS_NEAR_AS_IT_GOES``: the least of their ranges where none do."""
 
-    NOT, IF_IT_CAN, SURELY = range(3)
+    NOT, AS_NEAR_AS_IT_GOES, SURELY = range(3)
+
+
+class Made(NamedTuple):
+    """Sizes [um] of some of ``PLAY``, and the lost motion [arcmin] that is read of them."""
+
+    sizes: dict[str, float]
+    lost_motion: float
 
 
 def as_in_catalogue(given: Given, stiffness: float | None, meets: Meets, typed: str = "") -> Completion:
     """Completed as stiff as the catalogue says [N m/arcmin], if it does, ``typed`` with its unit, and with its lost motion as far as ``meets`` asks."""
     completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness, typed)
-    gap = gap_for(completion, meets)
-    return completion if gap is None else as_in_catalogue(replace(given, flank_gap=gap), stiffness, Meets.NOT, typed)
+    made = made_for(completion, meets)
+    return as_in_catalogue(replace(given, made=made), stiffness, Meets.NOT, typed) if made else completion
 
 
-def gap_for(completion: Completion, meets: Meets) -> float | None:
-    """Gap of the flanks [um] that makes the lost motion the catalogue's; None where none is asked for or does, InputFault where one surely has to."""
+def made_for(completion: Completion, meets: Meets) -> dict[str, float]:
+    """Sizes [um] of some of ``PLAY`` that bring the lost motion to the catalogue's; none where none are asked for, InputFault where they surely have to."""
     given = completion.given
     if GAP in given.known and meets is Meets.SURELY:
         raise InputFault(f"--meet-lost-motion and --known {GAP}: each says the gap of the flanks; keep one")
     if GAP in given.known or meets is Meets.NOT:
-        return None
+        return {}
     try:
-        found = tested(reducer_at(completion, {}), completion.numbers[GAP].value, given.lost_motion)
+        found = narrowed(completion)
     except RunFault:
         if meets is Meets.SURELY:
             raise
         # Its check says what is wrong with it.
-        return None
-    if found.gap is None and meets is Meets.SURELY:
+        return {}
+    if meets is Meets.SURELY and abs(found.lost_motion - given.lost_motion) > NEAR * given.lost_motion:
+        least = ", ".join(f"{name} = {size:g} um" for name, size in found.sizes.items())
         raise InputFault(
-            f"--meet-lost-motion: no gap of the flanks makes a lost motion of {given.lost_motion:g} arcmin, without one it is {found.least:.3g} arcmin;"
-            " look at --lost-motion, or give --known bearing.clearance=... or first_stage.backlash=..., which make the rest"
+            f"--meet-lost-motion: nothing within the ranges makes a lost motion of {given.lost_motion:g} arcmin, the least is {found.lost_motion:.3g} arcmin"
+            f" with {least}; look at --lost-motion, or give --known {CLEARANCE}=... of bearings that fit closer"
         )
-    return found.gap
+    return found.sizes
 
 
-def tested(reducer: Reducer, gap: float, lost_motion: float) -> Tested:
-    """The test of a reducer whose flanks have the ``gap`` [um], held against the catalogue's ``lost_motion`` [arcmin]; RunFault where it fails."""
-    as_it_is, without = test(reducer, gap), test(reducer, 0.0)
-    found = as_it_is.lost_motion_arcmin, as_it_is.stiffness_Nm_per_arcmin
-    least = without.lost_motion_arcmin
-    if least > lost_motion:
-        return Tested(*found, None, least)
-    wider = (gap, found[0]) if gap > 0.0 else (FIRST, test(reducer, FIRST).lost_motion_arcmin)
-    met = size_for(lost_motion, lambda size: test(reducer, size).lost_motion_arcmin, (0.0, least), wider, NEAR, MOST_STEPS)
-    return Tested(*found, met.size if met.near else None, least)
+def narrowed(completion: Completion) -> Made:
+    """The gap of the flanks that makes the lost motion the catalogue's; where even none leaves too much, the next of ``PLAY`` within its range likewise."""
+    reducer, wanted, figure = reducer_at(completion, {}), completion.given.lost_motion, 0.0
+    made: dict[str, float] = {}
+    for name in (name for name in PLAY if name not in completion.given.known):
+        least = 0.0 if name == GAP else next(dial.low for dial in completion.dials if dial.name == name)
+        figure = lost_motion(reducer, made | {name: least})
+        if figure <= (1.0 + NEAR) * wanted:
+            return met(reducer, made, name, (least, figure), max(completion.numbers[name].value, least + FIRST), wanted)
+        made[name] = least
+    return Made(made, figure)
 
 
-def test(reducer: Reducer, gap: float) -> Hysteresis:
-    return hysteresis(reducer, [parse_setting(f"{GAP}={gap!r}um", [reducer.plant, reducer.wear])])
+def clearance_for(completion: Completion) -> float | None:
+    """Clearance of the bearings [um] below its range that would make the lost motion the catalogue's with what is made; None where even none does."""
+    reducer, made, wanted = reducer_at(completion, {}), dict(completion.given.made), completion.given.lost_motion
+    without = lost_motion(reducer, made | {CLEARANCE: 0.0})
+    return None if without > wanted else met(reducer, made, CLEARANCE, (0.0, without), made[CLEARANCE], wanted).sizes[CLEARANCE]
+
+
+def met(reducer: Reducer, made: Mapping[str, float], name: str, here: tuple[float, float], there: float, wanted: float) -> Made:
+    """The size of ``name`` with which the lost motion is as ``wanted``, from (size, figure) at ``here`` and a larger size on."""
+    def figure(size: float) -> float:
+        return lost_motion(reducer, {**made, name: size})
+
+    found = size_for(wanted, figure, here, (there, figure(there)), NEAR, MOST_STEPS)
+    return Made({**made, name: found.size}, found.figure)
+
+
+def lost_motion(reducer: Reducer, sizes: Mapping[str, float]) -> float:
+    """As the stiffness test reads it [arcmin], with ``sizes`` [um] in place of the file's."""
+    tables = [reducer.plant, reducer.wear]
+    return hysteresis(reducer, [parse_setting(f"{name}={size!r}{UNITS[name]}", tables) for name, size in sizes.items()]).lost_motion_arcmin

@@ -7,7 +7,7 @@ from fmu_src.display import read_text
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
 from orchestrator.settings import NUMBER, parse_setting
-from reducers.completion.complete import AS_STIFF, Completion, Number, complete
+from reducers.completion.complete import Completion, Number, complete
 from reducers.completion.doubts import FREE, stiffness_doubt
 from reducers.completion.file import reducer_at
 from reducers.completion.given import Given
@@ -43,11 +43,9 @@ def as_stiff_as(given: Given, stiffness: float, typed: str = "") -> Completion:
     found = compliance_of(asked)
     if not number.low / FAR <= found <= FAR * number.high:
         raise InputFault(beyond_rules(asked, found, given.diameter))
-    completion = complete(replace(given, known={**given.known, FREE: found}))
-    source = f"{AS_STIFF}, {stiffness:g} N.m/arcmin"
+    completion = complete(replace(given, known={**given.known, FREE: found}, stiffness=stiffness))
     doubts = stiffness_doubt(f"{stiffness:g} N.m/arcmin", found, number.low, number.high, number.unit, given.diameter)
-    numbers = completion.numbers | {FREE: replace(completion.numbers[FREE], source=source)}
-    return replace(completion, numbers=numbers, doubts=[*completion.doubts, *doubts])
+    return replace(completion, doubts=[*completion.doubts, *doubts])
 
 
 @dataclass(frozen=True)

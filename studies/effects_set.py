@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from fmu_src.effect_words import effect_words
 from orchestrator.settings import ArraySetting, Setting
 from reducers.reducer import Reducer
 from rv_plant.effects import EFFECTS
@@ -16,7 +17,7 @@ def effects_set(reducer: Reducer, settings: Sequence[Setting | ArraySetting]) ->
         amplitudes = [p.variable for p in effect.amplitudes()]
         was, now = (any(values.get(v.name, v.start) != v.start for v in amplitudes) for values in (starts, starts | given))
         if now and any(v.name in given for v in amplitudes):
-            told.append(f", with {name.replace('_', ' ')}")
+            told.append(f", with {effect_words(name)}")
         elif was and not now:
-            told.append(f", without {name.replace('_', ' ')}")
+            told.append(f", without {effect_words(name)}")
     return "".join(told)

@@ -28,7 +28,7 @@ from studies.solve import ARCMIN
 # Torques a quarter beyond the small ones, and places over a turn of the cranks: five times as many torques at twice as many places move lost motion by 0.03 %.
 STEPS, ANGLES = 16, 16
 # Shares of the rated torque that a loop always has, whatever its steps: to twice that at which lost motion is read, for what friction keeps of the way
-# through the clearances depends on the steps out of them.  Four times as many move lost motion by 0.04 %, with a crank's lobe of 12 um by 0.4 %.
+# through the clearances depends on the steps out of them.  Four times as many move lost motion by 0.04 %, with a crank's eccentric of 12 um by 0.4 %.
 SMALL = np.linspace(0.0, 0.06, 13)
 # Power of the sine by which torques lie closer near none and near the largest: at 2 both gain alike, above it small torques more.
 CLOSENESS = 2.2

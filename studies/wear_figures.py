@@ -17,7 +17,7 @@ FINE = 16
 def wear_figures(record: np.ndarray) -> dict[str, float]:
     """Deepest wear and its place, from a wear unit's record.
 
-    Places in degrees: on an inner raceway from the lobe's eccentric direction, on an
+    Places in degrees: on an inner raceway from the eccentric's direction, on an
     outer one from the outward radial of its hole, both counted the way the cranks turn;
     on a tooth the local phase, 0 root and 180 tip.
     """

@@ -274,8 +274,8 @@ def test_which_form_and_part_it_is_stands_in_the_headline_and_not_on_the_cards(a
     """It stood four times above the evidence."""
     from discrepancy.page.answer import cards
 
-    placed = replace(answer, effects=[answer.effects[0] | {"place": "lobe throw error 1, crank 1 at disc 1"}])
-    assert headline(placed) == "The model lacks clearance (lobe throw error 1, crank 1 at disc 1)."
+    placed = replace(answer, effects=[answer.effects[0] | {"place": "throw of the eccentric, crank 1 at disc 1"}])
+    assert headline(placed) == "The model lacks clearance (throw of the eccentric, crank 1 at disc 1)."
     notes = [card.note for card in cards(placed)]
     assert "best: clearance" in notes and not any("crank 1" in note for note in notes)
 
@@ -284,7 +284,7 @@ def test_an_interrupted_diagnosis_calls_effects_as_every_other_page_does(answer,
     """crank_lobe_errors.crank_1 stood in its headline."""
     reason = "stopped while looking for what is missing beside raceway_wear.inner; best so far: crank_lobe_errors.crank_1 + base.mesh_stiffness"
     stopped = replace(answer, verdict=STOPPED, reason=reason)
-    told = "beside raceway wear (inner); best so far: crank lobe errors (crank 1) + base (mesh stiffness)"
+    told = "beside raceway wear (inner); best so far: crank eccentric errors (crank 1) + base (mesh stiffness)"
     assert told in headline(stopped) and "crank_lobe_errors" not in written(stopped, tmp_path)
 
 

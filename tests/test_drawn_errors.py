@@ -42,7 +42,7 @@ def test_a_displaced_hole_is_drawn_out_of_place_with_the_factor_beside_the_pictu
 
 
 def test_lobes_teeth_seats_and_pins_are_off_by_what_their_effects_say():
-    lobes = off_by(drawn(lobe_throw_error_1=5 * UM, lobe_phase_error_2=1e-3))["lobes of the cranks at disc 1"]
+    lobes = off_by(drawn(lobe_throw_error_1=5 * UM, lobe_phase_error_2=1e-3))["eccentrics of the cranks at disc 1"]
     assert [by[0] for by in lobes] == pytest.approx([5.0, 0.9j], abs=1e-3)
     (seat,) = off_by(drawn(carrier_seat_shift=3 * UM, carrier_seat_crank=2))["seats of the cranks in the carrier"]
     assert seat[0] == pytest.approx(-3j)

@@ -11,6 +11,7 @@ from discrepancy.catalogue.documentation import COMPUTED, PAGE, static_part
 from discrepancy.catalogue.examples import AUDITED, CASES, picture
 from discrepancy.catalogue.plots import PICTURE, figure
 from discrepancy.catalogue.signature import new_bench, signature, words
+from discrepancy.page.amounts import effect_title
 from fmu_src.faults import InputFault
 
 
@@ -87,3 +88,10 @@ def test_words_say_what_changes():
     found = signature(new_bench(), "encoder_eccentricity", entry("encoder_eccentricity").cases[0])
     assert words(found)[0].startswith("TE order 1 (rated)") and words(found)[0].endswith("-> 41.2 arcsec")
     assert figure(new_bench(), "drag", entry("drag").cases).data[0]["name"] == "without"
+
+
+def test_lobes_are_those_of_a_disc_and_a_crank_has_eccentrics():
+    """"lobe throw error" was of a crank, "lobe" elsewhere of a disc; keys stay."""
+    told = entry("crank_lobe_errors").effect
+    texts = [told.title, told.law, told.signature, *(p.variable.description for p in told.parameters), effect_title("crank_lobe_errors.crank_1")]
+    assert not [text for text in texts if "lobe" in text] and effect_title("crank_lobe_errors.crank_1") == "crank eccentric errors (crank 1)"

@@ -178,14 +178,14 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     four = "crank 1 at disc 1 or crank 2 at disc 2, which look alike"
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": four, "other_places": ["crank 2 at disc 2"]}]
     said = proposal_for(answer, CAMPAIGN).verdict
-    assert f"at which part it is (crank lobe errors at {four}) no other run of these signals tells, for they are the same with each" in said
+    assert f"at which part it is (crank eccentric errors at {four}) no other run of these signals tells, for they are the same with each" in said
     assert "exchange one of them for that of another unit" in said
     # Once it stands in the model file it is as open as before.
     kept = {"untold": parts_untold(answer.effects), "kept": True}
     answer.effects = []
     answer.model.file.steps = (kept, {"untold": ["what was tried in vain"], "kept": False})
     said = proposal_for(answer, CAMPAIGN).verdict
-    assert f"at which part it is (crank lobe errors at {four})" in said and "in vain" not in said
+    assert f"at which part it is (crank eccentric errors at {four})" in said and "in vain" not in said
     answer.model.file.steps = ()
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": "crank 1 at disc 1", "other_places": []}]
     assert "no other run" not in proposal_for(answer, CAMPAIGN).verdict

@@ -1,6 +1,7 @@
 """One entry in pyproject.toml says version, authors and licence; everything else follows it."""
 
 import json
+from importlib import import_module
 from importlib.metadata import PathDistribution
 from pathlib import Path
 
@@ -23,6 +24,15 @@ def test_citation_agrees_with_the_project():
     assert (cited["version"], cited["name"]) == (project().version, project().author)
     # The format knows listed licences alone.
     assert cited.get("license", UNDECIDED) == project().licence
+
+
+def test_set_up_passes_on_what_pip_warns_of_but_for_folders_that_lack_a_package(monkeypatch, capsys):
+    """Forty lines of the machine's own indexes stood before each first run."""
+    monkeypatch.syspath_prepend(ROOT)
+    build = import_module("build")
+    retrying = "WARNING: Retrying (Retry(total=4)) after connection broken\n"
+    build.pass_on(["WARNING: Location 'file:///opt/more/lxml/' is ignored: it is neither a file nor a directory.\n", retrying, "ERROR: no version of it\n"])
+    assert capsys.readouterr().err == retrying + "ERROR: no version of it\n"
 
 
 def test_changelog_has_the_present_version():

@@ -6,6 +6,7 @@ import shlex
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from cli.main import main
@@ -146,6 +147,27 @@ def test_a_decimal_comma_in_quotes_and_a_file_that_is_not_there_are_told(tmp_pat
         load_reducer(tmp_path / "minne.toml")
 
 
+def test_a_completed_file_is_held_against_its_catalogue(tmp_path, capsys):
+    """Nothing of it was said where a stiffness and a lost motion were missed."""
+    path, page = tmp_path / "a.toml", tmp_path / "a.html"
+    words = ["reducer", "new", "--ratio", "81", "--rated", "167", "--cranks", "3", "--diameter", "145", "--stiffness", "60", "--lost-motion", "0.8"]
+    assert main([*words, "--output", str(path), "-q"]) == 0
+    capsys.readouterr()
+    assert main(["reducer", "check", str(path)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "of the catalogue: torsional stiffness 60 N.m/arcmin asked, 60 reached; lost motion 0.8 arcmin asked, 0.80" in said and "misses" not in said
+    # Somebody measured the clearance.
+    text = re.sub(r'(?m)^clearance = .*$', 'clearance = { value = 4.0, unit = "um", source = "measured" }', path.read_text(encoding="utf-8"))
+    path.write_text(text, encoding="utf-8")
+    assert main(["reducer", "check", str(path), "--html", str(page), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out.partition(f"\n{page}")[0])
+    stiff, lost = told["catalogue"]
+    assert (stiff["asked"], stiff["met"], lost["asked"], lost["met"], lost["unit"]) == (60.0, True, 0.8, False, "arcmin") and lost["miss"] > 0.2
+    assert any(re.match(r"lost motion 1\.\d+ arcmin misses the catalogue's 0\.8 arcmin, 0\.\d+ too much: ", text) for text in told["doubts"])
+    assert "--known bearing.clearance=4um" in told["completing"] and "--lost-motion 0.8" in told["completing"]
+    assert re.search(r"0\.8 of the catalogue, 0\.\d+ too much", page.read_text(encoding="utf-8"))
+
+
 def test_a_completed_file_is_drawn_with_its_housing_as_when_it_was_made(tmp_path):
     """It had lost it, and filled the frame otherwise."""
     from reducers.completion.complete import complete
@@ -159,5 +181,9 @@ def test_a_completed_file_is_drawn_with_its_housing_as_when_it_was_made(tmp_path
     [made, _] = page_of(complete(given), reducer, []).sections[0].figures
     [whole, _] = parts(check(reducer))
     assert len(whole.data) == len(made.data) and whole.layout["xaxis"]["range"] == pytest.approx(made.layout["xaxis"]["range"])
+    # A scale stands below it and beside its teeth: nothing else of a drawing says how large it is.
+    for figure in parts(check(reducer)):
+        x, [length] = figure.data[-1]["x"], figure.layout["annotations"]
+        assert length["text"] == f"{max(x) - min(x):g} mm" and 0.05 < (max(x) - min(x)) / np.ptp(figure.layout["xaxis"]["range"]) <= 0.2
     # Nobody knows that of a file without one.
     assert len(parts(check(load_reducer(MINE)))[0].data) == len(made.data) - 1

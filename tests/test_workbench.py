@@ -673,9 +673,9 @@ def test_a_gap_that_makes_the_lost_motion_is_no_measured_one_on_the_page(tmp_pat
     folder, asked = opened(tmp_path), {"ratio": "129", "rated": "1568", "meets_lost_motion": True}
     found = completed(folder, asked)
     (gap,) = [row for row in found["numbers"] if row["name"] == "disc.equidistant_modification"]
-    assert not gap["given"] and gap["range"].startswith("0 to ") and "--meet-lost-motion" in found["command"]
+    assert not gap["given"] and gap["range"].startswith("0 to ") and "--lost-motion 1 " in found["command"]
     (card,) = [card for card in found["page"]["cards"] if card["label"] == "lost motion"]
-    assert float(card["value"]) == pytest.approx(1.0, rel=5e-3) and card["note"] == f"1 of the catalogue; a gap of the flanks of {float(gap['value']):.4g} µm is taken, which makes it that"
+    assert float(card["value"]) == pytest.approx(1.0, rel=5e-3) and card["note"] == f"1 of the catalogue; taken for it: {gap['name']} = {float(gap['value']):.3g} µm"
     with pytest.raises(InputFault, match="^meet lost motion and known disc"):
         completed(folder, {**asked, "known": {"disc.equidistant_modification": "3um"}})
 

@@ -627,7 +627,7 @@ def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_eff
     shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
     effect = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1", "candidates": ["crank_lobe_errors.crank_1"], "instead": [], "parameters": [],
               "share": "explains", "error": "", "held": ""}  # fmt: skip
-    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank lobe errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
+    answer = ANSWER | {"verdict": "one effect", "headline": "The model lacks crank eccentric errors (crank 1 at disc 1).", "seconds": 180.0, "effects": [effect]}
     folder.remember("jobs/diagnose/job", {"kind": "diagnose", "given": {"model": "RV20E-121"}, "begun": 1.0})
     folder.remember("jobs/diagnose/beat", {"state": "done", "at": 2.0, "seconds": 1.0, "said": [], "tasks": []})
     folder.remember("jobs/diagnose/result", answer | {"found": 1.7e9, "found_in": "/data/first"})
@@ -768,7 +768,7 @@ def test_a_new_reducer_is_called_so_until_it_is_saved_and_no_model_of_others_bef
     page.locator("#model option:checked", has_text="ratio-121-412Nm.toml").wait_for(state="attached")
 
 
-def test_a_new_reducer_takes_the_gap_of_its_lost_motion_by_a_box(bench):
+def test_a_new_reducer_takes_the_gap_of_its_lost_motion_and_a_box_refuses_one_that_is_missed(bench):
     """Typed into the list below the gap that a card told counted for measured; compliances stood in SI there."""
     page = bench.page
     page.goto(bench.address)
@@ -776,9 +776,15 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_by_a_box(bench):
     page.click("#new")
     page.fill("#ask-ratio", "129")
     page.fill("#ask-rated", "1568")
-    page.get_by_text(re.compile("a gap of the flanks of .* makes it that")).wait_for()
+    page.get_by_text("not given: made by rules alone, hold it against the catalogue").first.wait_for()
+    page.fill("#ask-lost_motion", "1")
+    page.get_by_text(re.compile(r"1 of the catalogue; taken for it: disc\.equidistant_modification = ")).wait_for()
+    page.fill("#ask-lost_motion", "0.1")
+    page.get_by_text(re.compile("0.1 of the catalogue, missed; taken for it: ")).wait_for()
     page.check("#meets-lost-motion")
-    page.get_by_text("is taken, which makes it that").wait_for()
+    page.get_by_text(re.compile("nothing within the ranges makes a lost motion of 0.1 arcmin")).wait_for()
+    page.fill("#ask-lost_motion", "1")
+    page.get_by_text(re.compile("1 of the catalogue; taken for it: ")).wait_for()
     row = page.locator("tr", has=page.locator("[id='n-disc.equidistant_modification']"))
     assert "makes the lost motion that of the catalogue" in row.inner_text() and row.locator("input.changed").count() == 0
     assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()

@@ -24,7 +24,7 @@ def variables(sizes: Sizes) -> list[Variable]:
         parameter("pin.circle_radius", "m", "radius of the circle of the pins' centres", 52e-3, 1e-4, nominal=1e-2),
         parameter("eccentricity", "m", "throw of the cranks", 0.9e-3, 1e-6, nominal=1e-3, path="crank.eccentricity"),
         parameter("mesh.width", "m", "width of one disc", 8.82e-3, 1e-5, nominal=1e-2),
-        parameter("inner_race.radius", "m", "radius of the crank's lobe", 10.25e-3, 1e-4, nominal=1e-2),
+        parameter("inner_race.radius", "m", "radius of the crank's eccentric", 10.25e-3, 1e-4, nominal=1e-2),
         parameter("outer_race.radius", "m", "radius of the hole in the disc", 13.25e-3, 1e-4, nominal=1e-2),
         parameter("roller.radius", "m", "radius of the needle rollers", 1.5e-3, 1e-5, nominal=1e-3),
         parameter("roller.length", "m", "length of the needle rollers", 8e-3, 1e-5, nominal=1e-2),

@@ -151,7 +151,7 @@ def wear_race(r, surface, worn, start, end, ahead, unit, power, line_load, slip,
 
 @kernel
 def wear_raceways(r, modulus, viscosity, run_in, after):
-    """Cranks' lobes and holes of the discs: depth k q xi per pass of a roller; ``after`` as in ``wear_meshes``."""
+    """Cranks' eccentrics and holes of the discs: depth k q xi per pass of a roller; ``after`` as in ``wear_meshes``."""
     discs, cranks, rollers = r.roller_force.shape
     inner_radius = 1.0 / (1.0 / r.roller_radius + 1.0 / r.inner_race_radius)
     outer_radius = 1.0 / (1.0 / r.roller_radius - 1.0 / r.outer_race_radius)

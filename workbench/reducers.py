@@ -18,14 +18,16 @@ from fmu_src.units import conversion
 from pages.content import Card
 from pages.words import number
 from reducers.checking import check
-from reducers.completion.command import typed, usual_name, words_of
+from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion
 from reducers.completion.file import text_of
-from reducers.completion.given import GAP, Given, given_with, of_ratio
+from reducers.completion.given import Given, given_with, of_ratio
 from reducers.completion.known import FROM_OPTIONS, known_numbers
 from reducers.library import available
 from reducers.reducer import Reducer, reducer_of
-from studies.catalogue_lost_motion import Meets, as_in_catalogue, tested
+from studies.catalogue_lost_motion import Meets, as_in_catalogue
+from studies.catalogue_targets import LOST_MOTION, Target, asked_of, targets_of
+from studies.hysteresis import hysteresis
 from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
@@ -137,7 +139,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     """A reducer completed by design rules; with ``save`` its file is written, under a name that is free."""
     try:
         known, stiffness = given_of(given)
-        meets = Meets.SURELY if given.get("meets_lost_motion") else Meets.NOT
+        told = str(given.get("lost_motion") or "").strip()
+        meets = Meets.SURELY if given.get("meets_lost_motion") else Meets.AS_NEAR_AS_IT_GOES if told else Meets.NOT
         completion = as_in_catalogue(known, stiffness, meets, str(given.get("stiffness") or "").replace(",", "."))
         name = str(given.get("name") or "").strip() or usual_name(completion.given)
         if not NAME.fullmatch(name):
@@ -156,30 +159,32 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     page = page_of(completion, reducer, [])
     cards = test_cards(reducer, completion, stiffness)
     page = replace(page, cards=[*page.cards, *cards], warnings=[*map(plainly, page.warnings)])
-    meant = replace(known, flank_gap=completion.given.flank_gap)
-    words = [*words_of(meant), *(["--stiffness", typed(stiffness)] if stiffness is not None else []), "--name", name]
-    told = {"name": name, "saved": saved, "findings": findings(reducer)}
-    return {"page": page_data(page), "numbers": rows_of(completion), **told, "command": shlex.join(words)}
+    words = [*words_of(completion.given), "--name", name]
+    found = {"name": name, "saved": saved, "findings": findings(reducer)}
+    return {"page": page_data(page), "numbers": rows_of(completion), **found, "command": shlex.join(words)}
 
 
 def test_cards(reducer: Reducer, completion: Completion, stiffness: float | None) -> list[Card]:
     """What the stiffness test reads of it, beside what was asked for: nobody keeps a stiffness that was never looked at."""
-    gap, lost_motion = completion.numbers[GAP].value, completion.given.lost_motion
     asked = "not given: made by rules alone, hold it against the catalogue" if stiffness is None else f"{stiffness:.4g} asked for"
     try:
-        found = tested(reducer, gap, lost_motion)
+        found = hysteresis(reducer, [])
     except RunFault as fault:
         return [Card("torsional stiffness", "unknown", f"{asked}; the test fails: {fault}")]
-    if found.gap is None:
-        told = f"{found.least:.3g} without a gap of the flanks"
-    elif completion.given.flank_gap is not None:
-        told = f"a gap of the flanks of {gap:.4g} µm is taken, which makes it that"
-    else:
-        told = f"a gap of the flanks of {found.gap:g} µm makes it that, {gap:.3g} µm are taken"
+    target = next((one for one in targets_of(found, asked_of(completion.given)) if one.name == LOST_MOTION), None)
     return [
-        Card("torsional stiffness", f"{found.stiffness:.4g}", asked, unit="N·m/arcmin"),
-        Card("lost motion", f"{found.lost_motion:.3g}", f"{lost_motion:g} of the catalogue; {told}", unit="arcmin"),
+        Card("torsional stiffness", f"{found.stiffness_Nm_per_arcmin:.4g}", asked, unit="N·m/arcmin"),
+        Card("lost motion", f"{found.lost_motion_arcmin:.3g}", lost_motion_words(target, completion), unit="arcmin"),
     ]
+
+
+def lost_motion_words(target: Target | None, completion: Completion) -> str:
+    """Beside what the test reads: what the catalogue has, and what was taken for it."""
+    if target is None:
+        return "not given: made by rules alone, hold it against the catalogue"
+    made = ", ".join(f"{name} = {completion.numbers[name].value:.3g} µm" for name in completion.given.made)
+    taken = f"; taken for it: {made}" if made else ""
+    return f"{target.asked:g} of the catalogue{'' if target.is_met else ', missed'}{taken}"
 
 
 def given_of(given: Mapping[str, Any]) -> tuple[Given, float | None]:

@@ -12,6 +12,7 @@ from fmu_src.progress import task
 
 if TYPE_CHECKING:
     from reducers.checking import Check
+    from studies.catalogue_targets import Target
 
 
 def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -50,16 +51,18 @@ def run_check(options: argparse.Namespace) -> int:
     from cli.show.check_reducer import show
     from reducers.checking import check
     from reducers.reducer import load_reducer
+    from studies.catalogue_targets import as_json as targets_json
+    from studies.catalogue_targets import held_against
 
     check_exports(options)
     with task("checking"):
-        found = check(load_reducer(options.reducer))
+        found, targets = held_against(check(load_reducer(options.reducer)))
     if options.json:
-        json_text(as_json(found))
+        json_text(as_json(found) | {"catalogue": targets_json(targets)})
     else:
-        show(found)
+        show(found, targets)
     if options.html or options.picture:
-        draw(options, found)
+        draw(options, found, targets)
     return 2 if found.faults else 0
 
 
@@ -70,11 +73,11 @@ def as_json(found: "Check") -> dict[str, object]:
     }  # fmt: skip
 
 
-def draw(options: argparse.Namespace, found: "Check") -> None:
+def draw(options: argparse.Namespace, found: "Check", targets: "list[Target]") -> None:
     from pages.render import rendered_sections, written
     from studies.report.checked import page_of, parts
 
     with task("drawing"):
         if options.html:
-            say_file(written(rendered_sections(page_of(found)), Path(options.html)))
+            say_file(written(rendered_sections(page_of(found, targets)), Path(options.html)))
         write_exports(options, lambda: (), lambda: parts(found))

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from reducers.completion.complete import Completion
     from reducers.completion.given import Given
     from reducers.reducer import Reducer
-    from studies.catalogue_lost_motion import Meets, Tested
+    from studies.catalogue_lost_motion import Meets
+    from studies.catalogue_targets import Target
     from studies.completed_ranges import Influence
 
 
@@ -35,12 +36,13 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
     new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
     new.add_argument("--lost-motion", type=number_in("arcmin"), metavar="ARCMIN",
-                     help="lost motion of the catalogue [arcmin]: the gap of the flanks is made as that asks for, if one does (not given: 1 bounds that gap)")
+                     help="lost motion of the catalogue [arcmin]: the gap of the flanks is made as that asks for; where none is narrow enough, clearance of"
+                          " the bearings and play of the first stage, too, within their ranges (not given: 1 bounds that gap)")
     new.add_argument("--stiffness", type=told_in("N.m/arcmin"), metavar="NM/ARCMIN",
                      help="torsional stiffness of the catalogue [N m/arcmin]: the supports of the cranks are made as soft as that asks for")
     new.add_argument(
         "--meet-lost-motion", action="store_true",
-        help="take the gap of the flanks with which the stiffness test reads that lost motion, or end where none does; it stands as completed",
+        help="end where no gap of the flanks, no clearance and no play within their ranges make that lost motion",
     )  # fmt: skip
     new.add_argument(
         "--known", action="append", default=[], metavar="NAME=VALUE",
@@ -64,8 +66,6 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 def run_new(options: argparse.Namespace) -> int:
     """The file is written after it was read and checked as any other."""
-    from dataclasses import replace
-
     from cli.screen import json_text
     from cli.show.new_reducer import show, show_against, show_influences
     from fmu_src.checked_file import write_text
@@ -74,6 +74,8 @@ def run_new(options: argparse.Namespace) -> int:
     from reducers.completion.file import text_of
     from reducers.reducer import load_reducer
     from studies.catalogue_lost_motion import as_in_catalogue
+    from studies.catalogue_targets import as_json as targets_json
+    from studies.catalogue_targets import asked_of, targets_of, tested
 
     given = given_by(options)
     name = options.name or usual_name(given)
@@ -86,18 +88,20 @@ def run_new(options: argparse.Namespace) -> int:
     write_text(target, text)
     only_file(target)
     with task("testing its stiffness"):
-        test = tested_of(completion, reducer)
+        test = tested(reducer)
+        targets = targets_of(test, asked_of(completion.given))
     found = sensitivity(completion) if options.sensitivity else []
     if page is not None:
-        write_page(completion, reducer, found, page)
+        write_page(completion, reducer, found, targets, page)
         only_file(page)
     rows = against(completion, load_reducer(options.against)) if options.against else []
     if options.json:
         compared = {"against": [vars(row) | {"inside": row.inside, "tests": row.tests} for row in rows]} if options.against else {}
         moved = {"sensitivity": [vars(one) | {"share": one.share} for one in found]} if options.sensitivity else {}
-        json_text({"file": str(target)} | as_json(completion) | {"tested": None if test is None else vars(test)} | compared | moved)
+        read = None if test is None else {"lost_motion": test.lost_motion_arcmin, "stiffness": test.stiffness_Nm_per_arcmin}
+        json_text({"file": str(target)} | as_json(completion) | {"tested": read, "catalogue": targets_json(targets)} | compared | moved)
     else:
-        show(completion, name, target, test, command_of(options, given if test is None else replace(given, flank_gap=test.gap), target))
+        show(completion, name, target, test, targets, command_of(options, completion.given, target))
         if options.against:
             show_against(rows, name, options.against)
         if options.sensitivity:
@@ -110,29 +114,16 @@ def catalogue_of(options: argparse.Namespace) -> tuple[float | None, "Meets", st
     from studies.catalogue_lost_motion import Meets
 
     told = options.stiffness
-    meets = Meets.SURELY if options.meet_lost_motion else Meets.NOT if options.lost_motion is None else Meets.IF_IT_CAN
+    meets = Meets.SURELY if options.meet_lost_motion else Meets.NOT if options.lost_motion is None else Meets.AS_NEAR_AS_IT_GOES
     return (None if told is None else told.value), meets, ("" if told is None else told.text)
 
 
 def command_of(options: argparse.Namespace, given: "Given", target: Path) -> list[str]:
     """The command as it was given, that it writes over its files but not: whoever types it says so."""
-    from reducers.completion.command import typed, words_of
+    from reducers.completion.command import words_of
 
-    stiff = ["--stiffness", typed(options.stiffness.value)] if options.stiffness is not None else []
     asked = [word for name in ("name", "against", "html") if (value := getattr(options, name)) for word in (f"--{name}", value)]
-    return [*words_of(given), *stiff, *asked, *(["--sensitivity"] if options.sensitivity else []), "--output", str(target)]
-
-
-def tested_of(completion: "Completion", reducer: "Reducer") -> "Tested | None":
-    """What the stiffness test reads; None where the reducer does not stand it, which its check says."""
-    from fmu_src.faults import RunFault
-    from reducers.completion.given import GAP
-    from studies.catalogue_lost_motion import tested
-
-    try:
-        return tested(reducer, completion.numbers[GAP].value, completion.given.lost_motion)
-    except RunFault:
-        return None
+    return [*words_of(given), *asked, *(["--sensitivity"] if options.sensitivity else []), "--output", str(target)]
 
 
 def sensitivity(completion: "Completion") -> "list[Influence]":
@@ -142,12 +133,12 @@ def sensitivity(completion: "Completion") -> "list[Influence]":
         return influences(completion, advance=running.advance)
 
 
-def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influence]", path: Path) -> None:
+def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influence]", targets: "list[Target]", path: Path) -> None:
     from pages.render import rendered_sections, written
     from studies.report.completed import page_of
 
     with task("drawing"):
-        written(rendered_sections(page_of(completion, reducer, found)), path)
+        written(rendered_sections(page_of(completion, reducer, found, targets)), path)
 
 
 def given_by(options: argparse.Namespace) -> "Given":

@@ -1,15 +1,16 @@
 """A checked reducer file on the screen."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.checking import STATED, Check
 from reducers.completion.complete import COMPLETED
 from reducers.completion.known import FROM_OPTIONS
+from studies.catalogue_targets import Target
 
 
-def show(found: Check) -> None:
-    """What nobody stated first, for it is what one may want to; then what does not fit."""
+def show(found: Check, targets: Sequence[Target]) -> None:
+    """What nobody stated first, for it is what one may want to; then what does not fit, the catalogue's figures among it."""
     out = console(WIDTH)
     filled = [n for n in found.numbers if n.kind != STATED]
     out.print(f"{found.reducer.name}: {stated_words({n.name: n.source for n in found.numbers if n.kind == STATED})}, {len(filled)} filled in")
@@ -23,6 +24,8 @@ def show(found: Check) -> None:
         out.print(table)
     f = found.figures
     out.print(f"ratio {f['ratio']:.4g}, K1 = {f['K1']:.3f}, K2 = {f['K2']:.3f}, pins up to {f['largest_pin_mm']:.4g} mm without undercut")
+    if targets:
+        out.print(f"of the catalogue: {'; '.join(target.words for target in targets)}")
     for text in found.doubts:
         out.print(styled(("doubtful: ", "yellow"), text))
     for text in found.faults:
@@ -30,6 +33,8 @@ def show(found: Check) -> None:
     if found.outdated:
         out.print("of a number that was measured say so as its source, and it stays; the others are completed anew with what the file gives:")
         out.print(f"  {found.completing}", soft_wrap=True)
+    elif found.completing and any(not target.is_met for target in targets):
+        out.print(f"to come as near to the catalogue as the rules leave room:\n  {found.completing}", soft_wrap=True)
     elif found.completing:
         out.print(f"to have them completed by design rules, with ranges:\n  {found.completing}", soft_wrap=True)
     if not found.faults:

@@ -13,18 +13,17 @@ from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
 from reducers.completion.doubts import FREE
 from reducers.completion.given import GAP
 from reducers.completion.known import FROM_OPTIONS
-from studies.catalogue_lost_motion import Tested
+from studies.catalogue_lost_motion import CLEARANCE, clearance_for
+from studies.catalogue_targets import LOST_MOTION, STIFFNESS, Target
 from studies.completed_ranges import Influence, what_matters
+from studies.hysteresis import Hysteresis
 
 # Signs of a rule that a line of the table has room for.
 RULE = 19
-# A lost motion this share off the catalogue's is that.
-SAME = 0.02
 
 
-def show(completion: Completion, name: str, file: Path, tested: Tested | None, command: Sequence[str]) -> None:
-    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it; ``command`` makes its lost motion
-    the catalogue's, if a gap does."""
+def show(completion: Completion, name: str, file: Path, test: Hysteresis | None, targets: Sequence[Target], command: Sequence[str]) -> None:
+    """Numbers with ranges and the beginning of their rules, doubts, a sum, and what the stiffness test reads of it; ``command`` makes it anew."""
     table = dense(f"{name}: completed by design rules")
     for head in ("number", "value", "unit", "range"):
         table.add_column(head, justify="right" if head in ("value", "range") else "left", no_wrap=True)
@@ -47,12 +46,26 @@ def show(completion: Completion, name: str, file: Path, tested: Tested | None, c
     )
     for note in completion.left_open:
         console().print(note)
-    if tested is not None:
-        console().print(in_words(tested, completion))
-        if tested.gap is not None and not is_met(tested, completion):
-            print(f"  {shlex.join([*command, '--overwrite'])}")
+    if test is not None:
+        console().print(in_words(test, targets))
+    for target in (target for target in targets if target.name == LOST_MOTION):
+        show_made(completion, target.is_met, command)
     # Plain, so that paths can be copied.
     print(f"\nfile  {file}\nnext  rvwear reducer check {shlex.quote(str(file))} --html {shlex.quote(str(file.with_suffix('.html')))}")
+
+
+def show_made(completion: Completion, is_met: bool, command: Sequence[str]) -> None:
+    """What the lost motion of the catalogue asked for, and the command that would meet it where nothing within the ranges does."""
+    if words := made_words(completion, is_met):
+        console().print(words if is_met else styled(("doubtful: ", "yellow"), words))
+    if is_met or CLEARANCE not in completion.given.made:
+        return
+    clearance = clearance_for(completion)
+    if clearance is None:
+        console().print("no smaller clearance would make it: look at --lost-motion and --stiffness")
+    else:
+        console().print("a smaller clearance than bearings of this size have would make it; if yours fit so close:")
+        print(f"  {shlex.join([*command, '--known', f'{CLEARANCE}={clearance:g}um', '--overwrite'])}")
 
 
 def show_against(rows: list[Row], name: str, full: str) -> None:
@@ -72,24 +85,26 @@ def show_against(rows: list[Row], name: str, full: str) -> None:
     )
 
 
-def in_words(tested: Tested, completion: Completion) -> str:
-    """What the stiffness test reads, and of a lost motion that is not the catalogue's where it comes from and what would make it that."""
-    told, gap = completion.given.lost_motion, completion.numbers[GAP]
-    found = f"the stiffness test reads {tested.stiffness:.4g} N.m/arcmin and a lost motion of {tested.lost_motion:.3g} arcmin (the catalogue's: {told:g})"
-    if is_met(tested, completion):
-        return found
-    found += f": a gap of the flanks of {gap.value:.3g} um is taken, and clearance of the bearings, play of the first stage and friction come on top; "
-    if tested.gap is None:
-        clearance = completion.numbers["bearing.clearance"].as_read
-        least = f"--known bearing.clearance={clearance.low:.3g}{clearance.unit}"
-        return found + f"without a gap ({GAP}) it is {tested.least:.3g} arcmin; {least} is the least clearance that bearings of this size have"
-    return found + f"one of {tested.gap:g} um makes it {told:g} arcmin, and --meet-lost-motion takes that"
+def in_words(test: Hysteresis, targets: Sequence[Target]) -> str:
+    """What the stiffness test reads beside what the catalogue has, and which options make it that."""
+    asked = {target.name: f" (the catalogue's: {target.asked:g})" for target in targets}
+    stiff, lost = asked.get(STIFFNESS, ""), asked.get(LOST_MOTION, "")
+    found = f"the stiffness test reads {test.stiffness_Nm_per_arcmin:.4g} N.m/arcmin{stiff} and a lost motion of {test.lost_motion_arcmin:.3g} arcmin{lost}"
+    left = [option for option, said in (("--stiffness", stiff), ("--lost-motion", lost)) if not said]
+    return found + (f"; {' and '.join(left)} of the catalogue would make it that" if left else "")
 
 
-def is_met(tested: Tested, completion: Completion) -> bool:
-    """Whether lost motion is the catalogue's, or is what a gap makes it that was given or found."""
-    told = completion.given.lost_motion
-    return completion.numbers[GAP].is_given or completion.given.flank_gap is not None or abs(tested.lost_motion - told) <= SAME * told
+def made_words(completion: Completion, is_met: bool) -> str:
+    """Which numbers the lost motion of the catalogue asked for beyond the gap of the flanks, and what the rest hangs on where it is missed; mostly nothing."""
+    made = [completion.numbers[name] for name in completion.given.made]
+    if is_met and len(made) < 2:
+        return ""
+    told = ", ".join(f"{n.name} = {n.value:.3g} {n.unit} (assumed, range {n.low:.3g} to {n.high:.3g} {n.unit})" for n in made if n.name != GAP)
+    gap = f"without a gap of the flanks ({GAP} = 0) usual clearances leave more than the catalogue has, so that they are taken smaller: {told}"
+    if is_met:
+        return f"{gap}; --known NAME=VALUE where one was measured"
+    rest = "clearance of the bearings, play of the first stage, friction and torsion make the rest"
+    return f"{gap}, the least of their ranges; {rest}" if told else f"the gap of the flanks is given; {rest}"
 
 
 def show_influences(completion: Completion, found: list[Influence]) -> None:

@@ -111,7 +111,7 @@ PAIRS = (
          "hysteresis loops to both signs: wear after running one way shows on one flank", PLAY, ((LOOP_BOTH_SIGNS,),)),
     Pair(5, ("thermal expansion", "viscosity"), "lost motion at standstill, hot and cold: only expansion changes it",
          (*PLAY, *FRICTION), ((levels("temperature", 2, *PLAY),),)),
-    Pair(6, ("eccentricity of one lobe", "hole position error", "planet run-out"),
+    Pair(6, ("throw of one eccentric", "hole position error", "planet run-out"),
          "vary the load, or mesh the planets one tooth further", ("transmission_error",),
          ((levels("load", 2, "transmission_error"), full_turns(1)),
           (intervention("planets_reindexed", "transmission_error"), full_turns(1)))),

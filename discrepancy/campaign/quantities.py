@@ -76,7 +76,7 @@ AXES = (
     Key("phase", "phase", "rad", "deg", "phase of a wave, see the conventions of order tables; 0 for order 0"),
     Key("depth_angle", "depth_angle", "rad", "deg",
         "place on the surface. Flank: 0 at a root, 180 deg at the tip, counted over one lobe; pin: from its inward radial;"
-        " inner race: from the lobe's eccentric direction; outer race: from the hole's outward radial; races the way the"
+        " inner race: from the eccentric's direction; outer race: from the hole's outward radial; races the way the"
         " cranks turn"),
 )  # fmt: skip
 

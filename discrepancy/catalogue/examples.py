@@ -65,8 +65,8 @@ CASES: dict[str, tuple[Case, ...]] = {
         Case("outer races 10 um", {"outer_race_worn": 10 * UM}),
     ),
     "crank_lobe_errors": (
-        Case("throw of one lobe 3 um too large", {"lobe_throw_error_1": 3 * UM}),
-        Case("one lobe turned by 3 um", {"lobe_phase_error_1": 3.0 / 900.0}),
+        Case("throw of one eccentric 3 um too large", {"lobe_throw_error_1": 3 * UM}),
+        Case("one eccentric turned by 3 um", {"lobe_phase_error_1": 3.0 / 900.0}),
     ),
     "hole_position_errors": (
         Case("one hole of one disc 4 um back", {"disc_hole_shift_1": -4 * UM}),

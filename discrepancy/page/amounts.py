@@ -12,6 +12,7 @@ from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
 from fmu_src.arrays import Floats
+from fmu_src.effect_words import effect_words
 from pages.words import number
 
 TITLES = {
@@ -59,7 +60,7 @@ def axis_title(name: str, speed: Scale = AXES["speed"]) -> str:
 
 def effect_title(name: str) -> str:
     """``sensor_gain.input_torque`` as words."""
-    effect, _, variant = name.replace("_", " ").partition(".")
+    effect, _, variant = effect_words(name).partition(".")
     return effect + (f" ({variant})" if variant else "")
 
 

@@ -12,6 +12,7 @@ from discrepancy.page import amounts, maps, numbers, panels, series, spectra, wh
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
+from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import counted, number
@@ -61,7 +62,7 @@ def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     """How much was measured, and what the model carries."""
     held = sum(run.record.held_out for run in runs)
     count = len({run.record.condition for run in runs})
-    effects = ", ".join(name.replace("_", " ") for name in result.model.file.effects)
+    effects = ", ".join(map(effect_words, result.model.file.effects))
     return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}, {held} of them held out; " + (
         f"model with {effects}" if effects else "model without further effects"
     )

@@ -8,6 +8,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
 from discrepancy.wording import signals_left
+from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.words import number
@@ -76,7 +77,7 @@ def left_sentence(step: Step) -> str:
 
 
 def conditions(file: ModelFile) -> str:
-    effects = ", ".join(name.replace("_", " ") for name in file.effects) or "no further effects"
+    effects = ", ".join(map(effect_words, file.effects)) or "no further effects"
     return f"Reducer {file.reducer.name} with {effects}"
 
 
@@ -176,7 +177,7 @@ def parameters(file: ModelFile) -> Section:
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
             }
             value, interval, unit = amounts.estimate(both)
-            rows.append([effect.replace("_", " ") if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
+            rows.append([effect_words(effect) if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."
     return Section(
         "effects",

@@ -85,7 +85,7 @@ class Picture {
     if (stroke) { pen.strokeStyle = stroke; pen.stroke(); }
   }
 
-  // Front disc: hole, rollers, the crank's lobe, and a mark that turns with it.
+  // Front disc: hole, rollers, the crank's eccentric, and a mark that turns with it.
   cranks(pen, crankAngle, outputAngle, places) {
     const { facts } = this, steel = this.colour("steel");
     for (let c = 0; c < facts.cranks; c++) {

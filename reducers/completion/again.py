@@ -14,10 +14,10 @@ from fmu_src.faults import InputFault
 from fmu_src.table import Table
 from fmu_src.units import conversion
 from reducers.completion.command import PINS_ASSUMED, described, usual_name, words_of
-from reducers.completion.complete import AS_STIFF, COMPLETED, MEETS, RULES, UNITS, complete, dials_for, numbers_of
+from reducers.completion.complete import AS_STIFF, COMPLETED, LEAST, MEETS, RULES, UNITS, complete, dials_for, numbers_of
 from reducers.completion.dials import dials_of
 from reducers.completion.doubts import FREE, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
-from reducers.completion.given import GAP, SUN, Given
+from reducers.completion.given import GAP, PLAY, SHIFT, SUN, Given
 from reducers.completion.known import FROM_OPTIONS
 from reducers.usual import DERIVED, FAR, USUAL
 from rv_plant.gear_stage import total_ratio
@@ -25,8 +25,9 @@ from rv_plant.topology import Topology
 
 # What sources and description of a completed file say of options that no number of it is.
 SPEED = re.compile(r"(?:speed of|N m at) ([\d.e+-]+) rpm")
-GAP_RANGE = re.compile(r"flank gap by equidistant modification 0 to ([\d.e+-]+) arcmin")
-MET = re.compile(rf"{MEETS}, ([\d.e+-]+) arcmin")
+GAP_RANGE = re.compile(r"gap by (?:equidistant|shift) modification 0 to ([\d.e+-]+) arcmin")
+MET = re.compile(rf"(?:{MEETS}|{LEAST}), ([\d.e+-]+) arcmin")
+STIFF = re.compile(rf"{re.escape(AS_STIFF)}, ([\d.e+-]+) N\.m/arcmin")
 FIGURE = r"([0-9.e+]+)"
 NAMED = re.compile(f"ratio-{FIGURE}-{FIGURE}Nm")
 DESCRIBED = re.compile(f"(ratio {FIGURE}, rated {FIGURE} N m at {FIGURE} rpm).*, completed by design rules")
@@ -64,7 +65,8 @@ def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | Non
     ratio = float(f"{float(total_ratio(numbers['first_stage.ratio'], t.pins, t.lobes)):.9g}")
     # What no number of the file is: an input speed that was completed tells the output's with the ratio of that time alone.
     told = SPEED.search(f"{sources['input.speed']} {reducer.description}") if "input.speed" in completed else None
-    meets = GAP in completed and sources[GAP].startswith(MEETS)
+    made = {name: numbers[name] for name in PLAY if name in completed and MET.match(sources[name])}
+    stiff = STIFF.match(sources.get(FREE, "")) if FREE not in measured else None
     ring = next(dial for dial in dials_of(t.pins, t.rollers, True, Given.lost_motion) if dial.name == "ring_share")
     by_diameter = "pin.circle_radius" in completed and ring.meaning in sources["pin.circle_radius"]
     known = {
@@ -75,17 +77,18 @@ def given_again(reducer: Reducer, measured: Collection[str] = ()) -> Given | Non
         return Given(
             ratio, t.pins, abs(numbers["output.load_torque"]), numbers["pin.circle_radius"] / ring.value if by_diameter else None,
             float(told[1]) if told else abs(numbers["input.speed"]) / ratio, t.cranks, t.rollers,
-            lost_motion_of(sources.get(GAP, "")), known=known, flank_gap=numbers[GAP] if meets else None,
+            lost_motion_of(sources), known=known, made=made, stiffness=float(stiff[1]) if stiff else None,
         )  # fmt: skip
     except InputFault:
         return None
 
 
-def lost_motion_of(source: str) -> float:
-    """That of the catalogue [arcmin], of which the source of the flanks' gap tells."""
-    if met := MET.match(source):
+def lost_motion_of(sources: Mapping[str, str]) -> float:
+    """That of the catalogue [arcmin], of which the sources of what makes it tell, or the range of a gap of the flanks."""
+    met = next((met for name in PLAY if (met := MET.match(sources.get(name, "")))), None)
+    if met:
         return float(met[1])
-    gap = GAP_RANGE.search(source)
+    gap = GAP_RANGE.search(sources.get(GAP, "")) or GAP_RANGE.search(sources.get(SHIFT, ""))
     return 2.0 * float(gap[1]) if gap else Given.lost_motion
 
 

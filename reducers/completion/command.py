@@ -5,6 +5,7 @@ from dataclasses import fields
 
 from fmu_src.display import read_in, read_text
 from reducers.completion.complete import UNITS
+from reducers.completion.doubts import FREE
 from reducers.completion.given import Given
 
 # Digits that somebody may have typed, and those of a number with more.
@@ -20,12 +21,16 @@ def words_of(given: Given) -> list[str]:
     words += ["--rated", typed(given.rated)]
     words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
-    meets = given.flank_gap is not None
-    words += ["--lost-motion", typed(given.lost_motion)] if meets or given.lost_motion != Given.lost_motion else []
-    words += ["--meet-lost-motion"] if meets else []
-    for name, value in given.known.items():
+    words += ["--lost-motion", typed(given.lost_motion)] if given.made or given.lost_motion != Given.lost_motion else []
+    words += ["--stiffness", typed(given.stiffness)] if given.stiffness is not None else []
+    for name, value in measured(given).items():
         words += ["--known", f"{name}={with_unit(value, UNITS[name])}"]
     return words
+
+
+def measured(given: Given) -> dict[str, float]:
+    """What is known but for supports that were found to make the catalogue's stiffness: with other numbers others do."""
+    return {name: value for name, value in given.known.items() if name != FREE or given.stiffness is None}
 
 
 def given_words(given: Given) -> str:
@@ -34,9 +39,11 @@ def given_words(given: Given) -> str:
     said += [f"diameter {given.diameter:g} mm"] if given.diameter is not None else []
     said += [f"{given.cranks} cranks"] if given.cranks is not None else []
     usual = {f.name: f.default for f in fields(given)}
-    own = {"speed": f"{given.speed:g} rpm", "rollers": f"{given.rollers} rollers", "lost_motion": f"lost motion {given.lost_motion:g} arcmin"}
+    own = {"speed": f"{given.speed:g} rpm", "rollers": f"{given.rollers} rollers"}
     said += [text for name, text in own.items() if getattr(given, name) != usual[name]]
-    return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in given.known.items())])
+    said += [f"lost motion {given.lost_motion:g} arcmin"] if given.made or given.lost_motion != Given.lost_motion else []
+    said += [f"torsional stiffness {given.stiffness:g} N.m/arcmin"] if given.stiffness is not None else []
+    return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in measured(given).items())])
 
 
 def typed(value: float) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from fmu_src.display import read_in
-from reducers.completion.dials import ASSUMED, Dial, dials_of, gap_at
+from reducers.completion.dials import ASSUMED, Dial, dial_at, dials_of
 from reducers.completion.doubts import FREE, doubts_of
 from reducers.completion.geometry import check_geometry
 from reducers.completion.given import GAP, SUN, Given
@@ -34,7 +34,7 @@ RULES = {
     "input.speed": ("ratio times output speed", ""), "first_stage.ratio": ("ratio = 1 + pins z2/z1", ""),
     "first_stage.sun_teeth": ("fewest whole teeth from 10 on", ""), "wear.run_in_crank_speed": ("output speed times lobes", ""),
     "disc.mass": ("a steel plate with holes", "disc_solid"), "disc.inertia": ("radius of inertia 0.77 of the plate's", ""),
-    "crank.mass": ("two steel lobes and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the lobe's", ""),
+    "crank.mass": ("two steel eccentrics and what belongs to them", "crank_bulk"), "crank.inertia": ("radius of inertia 0.94 of the eccentric's", ""),
     "carrier.mass": ("a steel plate", "carrier_bulk"), "carrier.inertia": ("radius of inertia 0.63 of the pin circle's", ""),
     "sun.inertia": ("a steel shaft as thick as the sun", "sun_length"),
 } | SUPPORT_RULES  # fmt: skip
@@ -43,8 +43,9 @@ NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_s
 COMPLETED, GIVEN = "completed", "given"
 # Source of crank supports: how soft they are in place is what rules leave open, and what they were fitted for to catalogues.
 AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
-# Source of a gap of the flanks that the stiffness test asks for: no number of the catalogue, and none that was measured.
+# Sources of what the stiffness test asks for, of the gap of the flanks first: no numbers of the catalogue, and none that were measured.
 MEETS = f"{COMPLETED}: makes the lost motion that of the catalogue"
+LEAST = f"{COMPLETED}: the least of its range, for the lost motion of the catalogue"
 SUPPORTS = (
     "How soft a crank's bearing is in place is fitted to the RV-E series: it makes four fifths of the compliance, and scatters by a third from size to size."
 )
@@ -116,11 +117,11 @@ def complete(given: Given) -> Completion:
 def dials_for(given: Given) -> list[Dial]:
     """All that is free in the design of such a reducer."""
     dials = [*dials_of(given.pins, given.rollers, given.diameter is not None, given.lost_motion), *SUPPORT_DIALS, *SUPPORT_ASSUMED]
-    if given.flank_gap is None:
-        return dials
-    # An arcmin of gap is another length of every reducer.
-    per_um = 1.0 / numbers_of(given, {dial.name: 1.0 if dial.name == "gap" else dial.value for dial in dials})[GAP]
-    return [gap_at(dial, given.flank_gap * per_um) if dial.name == "gap" else dial for dial in dials]
+    moved = dict(given.made)
+    if GAP in moved:
+        # An arcmin of gap is another length of every reducer.
+        moved["gap"] = moved[GAP] / numbers_of(given, {dial.name: 1.0 if dial.name == "gap" else dial.value for dial in dials})[GAP]
+    return [dial_at(dial, moved[dial.name]) if dial.name in moved else dial for dial in dials]
 
 
 def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float]:
@@ -140,8 +141,12 @@ def span(value: float, reached: Sequence[Sequence[float]]) -> tuple[float, float
 
 
 def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
+    if name == FREE and given.stiffness is not None:
+        return f"{AS_STIFF}, {given.stiffness:g} N.m/arcmin"
     if name in given.known:
         return f"{GIVEN}: measured"
+    if name in given.made:
+        return made_source(given, dials["gap" if name == GAP else name])
     if name == "output.load_torque":
         return f"{GIVEN}: rated torque"
     if name in dials:
@@ -149,12 +154,15 @@ def source_of(given: Given, name: str, dials: Mapping[str, Dial]) -> str:
     if name == "pin.circle_radius":
         return f"{COMPLETED}: {own_dial(dials['ring_torque' if given.diameter is None else 'ring_share'])}"
     rule, own = RULES[name]
-    if name == GAP and given.flank_gap is not None:
-        return f"{MEETS}, {given.lost_motion:g} arcmin; {own_dial(dials[own])}"
     if name == "input.speed":
         # The one place of a file that says the output's speed: teeth that change later change the ratio.
         rule += f" of {given.speed:.9g} rpm"
     return f"{COMPLETED}: {rule}" + (f", {own_dial(dials[own])}" if own else "")
+
+
+def made_source(given: Given, dial: Dial) -> str:
+    """Of a number of ``PLAY`` that the lost motion asks for."""
+    return f"{LEAST if dial.value <= dial.low else MEETS}, {given.lost_motion:g} arcmin; {own_dial(dial) if dial.name == 'gap' else dial.source}"
 
 
 def own_dial(dial: Dial) -> str:

@@ -86,15 +86,15 @@ def dials_of(pins: int, rollers: int, diameter: bool, lost_motion: float) -> lis
         between("shift", "further gap by shift modification", 0.0, 0.5 * lost_motion, "assumed: at most the lost motion of the catalogue, both flanks",
                 "arcmin", 0.0),
         between("disc_solid", "mass of a disc over that of a plate with the cranks' holes", 0.7, 0.95, BULK),
-        between("crank_bulk", "mass of crank with planet over that of its two lobes", 2.0, 4.0, BULK),
+        between("crank_bulk", "mass of crank with planet over that of its two eccentrics", 2.0, 4.0, BULK),
         between("carrier_bulk", "mass of the carrier over that of a plate of the ring's size, as thick as the discs", 0.4, 0.9, BULK),
         between("sun_length", "length of sun and shaft over pin circle radius", 1.5, 3.5, BULK),
         *ASSUMED,
     ]  # fmt: skip
 
 
-def gap_at(dial: Dial, value: float) -> Dial:
-    """The dial of the flanks' gap, moved to ``value`` [arcmin]; its range reaches there."""
+def dial_at(dial: Dial, value: float) -> Dial:
+    """The dial moved to ``value``; its range reaches there."""
     return replace(dial, value=value, low=min(dial.low, value), high=max(dial.high, value))
 
 

@@ -10,7 +10,9 @@ from fmu_src.faults import InputFault
 # Teeth of a sun, and of planet over sun, that one may expect (assumed: suns of RV reducers have 10 to 40 teeth).
 SUN_TEETH = range(10, 41)
 FIRST_STAGE = (0.5, 8.0)
-SUN, GAP = "first_stage.sun_teeth", "disc.equidistant_modification"
+SUN, GAP, SHIFT = "first_stage.sun_teeth", "disc.equidistant_modification", "disc.shift_modification"
+# What nobody measures without taking it apart and lost motion is made of, in the order in which it is made smaller where a catalogue's asks for that.
+PLAY = (GAP, "bearing.clearance", "first_stage.backlash")
 # From this rated torque on three cranks are usual (assumed: the RV-E series changes between its sizes 80 and 110 to 160).
 THREE_CRANKS = 1000.0
 # Pins of a reducer whose pins nobody counted, and what they may be instead where no whole teeth make its ratio (assumed: as the RV-20E and BX-40E).
@@ -21,8 +23,9 @@ USUAL_PINS, OTHER_PINS = 40, range(30, 61)
 class Given:
     """Task and outer measures: rated output torque [N m] and speed [rpm], outer diameter [mm], lost motion of the catalogue [arcmin].
 
-    ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.  ``flank_gap`` [um] was found to make
-    the lost motion that of the catalogue: nobody measured it, so that it keeps the range of the rule.
+    ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.  ``made`` are some of ``PLAY`` [um] that were
+    found to bring the lost motion to that of the catalogue: nobody measured them, so that they keep the range of their rules.  ``stiffness``: the torsional one
+    of the catalogue [N m/arcmin], which supports among ``known`` were found to make.
     """
 
     ratio: float
@@ -36,7 +39,8 @@ class Given:
     lobes: int | None = None
     known: Mapping[str, float] = field(default_factory=dict)
     pins_counted: bool = True
-    flank_gap: float | None = None
+    made: Mapping[str, float] = field(default_factory=dict)
+    stiffness: float | None = None
 
     def __post_init__(self) -> None:
         self.check_numbers()

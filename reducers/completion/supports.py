@@ -71,7 +71,7 @@ def supports_of(values: Mapping[str, float], dial: Mapping[str, float], pins: in
     cube = SHEAR_MODULUS * ring**3
     lever = axis * stage / (1.0 + stage) * PRESSURE_COSINE
     teeth = 1.0 / (TEETH * dial["gear_width"] * ring)
-    # From the planet through a bearing as wide as a disc to the middle of the first lobe.
+    # From the planet through a bearing as wide as a disc to the middle of the first eccentric.
     twist = 1.5 * width / (SHEAR_MODULUS * 0.5 * math.pi * journal**4) * lever**2
     at_input = torque / (1.0 + stage * pins)
     return {
@@ -94,7 +94,7 @@ def roller_bearing(force: float, length: float, rollers: int) -> float:
 
 
 def bending(radius: float, width: float, discs: int) -> float:
-    """Shift of the lobes [m/N] of a shaft of ``radius`` [m] on two bearings as wide as a disc beside ``discs`` discs, all loaded alike: bending and shear."""
+    """Shift of the eccentrics [m/N] of a shaft of ``radius`` [m] on two bearings as wide as a disc beside ``discs`` discs, loaded alike: bending and shear."""
     inertia, area = 0.25 * math.pi * radius**4, math.pi * radius**2
     span = (discs + 1.0) * width
     reach = width if discs > 1 else 0.5 * span

@@ -1,8 +1,8 @@
-"""Lobes of the cranks, at one disc, with another throw or turned against their twins.
+"""Eccentrics of the cranks, at one disc, with another throw or turned against their twins.
 
-    lobe centre = (e + de) (cos, sin)(theta + offset + dphi)
+    centre of the eccentric = (e + de) (cos, sin)(theta + offset + dphi)
 
-With two cranks an error at the other disc shows as that of the other crank's lobe at this disc.
+With two cranks an error at the other disc shows as that of the other crank's eccentric at this disc.
 
 Source: geometry of ground cranks, +-3 um and +-3 arcmin.
 """
@@ -12,23 +12,23 @@ from fmu_src.kernel import kernel
 
 UM = 1e-6
 EFFECT = Effect(
-    12, "crank lobe errors",
-    "lobe = (e + de) at the angle theta + offset + dphi, one lobe",
+    12, "crank eccentric errors",
+    "eccentric = (e + de) at the angle theta + offset + dphi, one of a crank",
     "geometry of ground cranks; 3 um, 3 arcmin",
-    "an error of one lobe alone gives order 40 (3 um: 5 arcsec), load split between the cranks and pin force;"
+    "an error of one eccentric alone gives order 40 (3 um: 5 arcsec), load split between the cranks and pin force;"
     " errors common to a disc or a crank give no 40 but change the mean",
     (
         *(
             parameter
             for k in (1, 2, 3)
             for parameter in (
-                amplitude(f"lobe_throw_error_{k}", "m", f"throw of crank {k}'s lobe above nominal", 2 * UM, -30 * UM, 30 * UM,
+                amplitude(f"lobe_throw_error_{k}", "m", f"throw of crank {k}'s eccentric above nominal", 2 * UM, -30 * UM, 30 * UM,
                           group=f"crank {k}", needs=("cranks", k)),
-                amplitude(f"lobe_phase_error_{k}", "rad", f"turning of crank {k}'s lobe", 5e-4, -1e-2, 1e-2,
+                amplitude(f"lobe_phase_error_{k}", "rad", f"turning of crank {k}'s eccentric", 5e-4, -1e-2, 1e-2,
                           group=f"crank {k}", needs=("cranks", k)),
             )
         ),
-        choice("lobe_error_disc", "disc at which the cranks' lobes have errors", 1, 1, 3, part="disc", group="crank"),
+        choice("lobe_error_disc", "disc at which the cranks' eccentrics have errors", 1, 1, 3, part="disc", group="crank"),
     ),
     signals=("transmission_error", "vibration", "wear_profile", "wear_depth", "input_torque", "lost_motion", "hysteresis"),
 )

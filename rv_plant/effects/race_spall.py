@@ -20,7 +20,7 @@ EFFECT = Effect(
     (
         amplitude("spall_depth", "m", "depth of the pit", 5 * UM, 0.0, 500 * UM, sign=1),
         shape("spall_width", "rad", "width of the pit", 0.1, 0.005, 2.0, "assumed: a roller's footprint and more", grid=(0.1, 0.25)),
-        shape("spall_angle", "rad", "place of the pit, from the lobe's eccentric direction or the hole's outward radial",
+        shape("spall_angle", "rad", "place of the pit, from the eccentric's direction or the hole's outward radial",
               4.7124, -20.0, 20.0, "assumed: in the zone that positive load loads", grid=(1.5708, 4.7124)),
         shape("spall_race", "1", "0: inner race (crank), 1: outer race (disc)", 0.0, 0.0, 1.0, "assumed", grid=(0.0, 1.0)),
         choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3, part="disc"),
@@ -40,7 +40,7 @@ def before(r):
         return
     turn = 2.0 * math.pi
     lobes = r.lobe_gap_added.shape[1]
-    # Direction of roller 1 from the hole's radial, and from the lobe's eccentric direction.
+    # Direction of roller 1 from the hole's radial, and from the eccentric's direction.
     first = r.cage
     if r.spall_race < 0.5:
         first += (1.0 + lobes) * r.ideal_output + turn * c / cranks - disc_offset(r, d)

@@ -1,9 +1,9 @@
 """Raceways that are already worn: a smooth hollow on the loaded side of either race.
 
-    inner: depth = D_i max(0, -sin theta)^2, theta from the lobe's eccentric direction
+    inner: depth = D_i max(0, -sin theta)^2, theta from the eccentric's direction
     outer: depth = D_o max(0, -sin theta)^2, theta from the hole's outward radial
 
-The side is that of positive load: discs push the cranks forwards, so that lobe and hole touch behind,
+The side is that of positive load: discs push the cranks forwards, so that eccentric and hole touch behind,
 at 270 degrees.  It stands for wear before the campaign, or where no wear unit is connected.
 
 Source: shape of the wear unit's own result (Archard, Janakiraman); 0 to 15 um.
@@ -22,7 +22,7 @@ EFFECT = Effect(
     "the wear unit's own result; 0 to 15 um",
     "lost motion and mean lag grow, on one sign of torque; order 80 hardly grows or falls (clearance raises it)",
     (
-        amplitude("inner_race_worn", "m", "depth on the cranks' lobes", 2 * UM, 0.0, 100 * UM, sign=1, group="inner"),
+        amplitude("inner_race_worn", "m", "depth on the cranks' eccentrics", 2 * UM, 0.0, 100 * UM, sign=1, group="inner"),
         amplitude("outer_race_worn", "m", "depth in the discs' holes", 2 * UM, 0.0, 100 * UM, sign=1, group="outer"),
     ),
     signals=("transmission_error", "lost_motion", "hysteresis", "vibration"),

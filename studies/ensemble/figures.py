@@ -14,7 +14,7 @@ class Outcome(TypedDict):
 
 # Name -> what it is.
 FIGURES = {
-    "inner_raceway_um": "deepest wear of the cranks' lobes",
+    "inner_raceway_um": "deepest wear of the cranks' eccentrics",
     "outer_raceway_um": "deepest wear of the discs' holes",
     "disc_flank_um": "deepest wear of the teeth",
     "pin_um": "deepest wear of the pins",

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_src.arrays import Floats, Points, Records
+from fmu_src.effect_words import effect_words
 from orchestrator.component import InProcess
 from pages import look
-from pages.look import Figure, Trace, path
+from pages.look import Figure, Layout, Trace, path
 from pages.words import number
 from reducers.reducer import Reducer
 from rv_plant.effects import EFFECTS
@@ -20,6 +21,8 @@ from studies.report.shapes import MM, directions, joined, ring
 
 # Points per lobe, and the length of the largest force in pin circle radii.
 PER_LOBE, LONGEST_FORCE = 48, 0.22
+# Of a drawing's width, the longest that its scale may be.
+SCALE_SHARE = 0.2
 DISC_COLOURS = ("#0b4f94", "#d55e00", "#009e73")
 # Of parts out of place; the largest error is drawn at most so long, in pin circle radii; what is less is none [mm].
 OFF, LONGEST_ERROR, NO_ERROR = "#a3195b", 0.04, 1e-9
@@ -109,8 +112,10 @@ def assembly(reducer: Reducer, diameter: float | None) -> Figure:
     off = parts_off(reducer)
     times = enlarged(reducer, off)
     traces += [trace for parts in off for trace in off_traces(parts, times)]
-    traces = [{"showlegend": False} | trace for trace in traces]
+    bar, length = scale_bar(0j, reach, -1.0 - 1.0j)
+    traces = [{"showlegend": False} | trace for trace in [*traces, bar]]
     picture = look.drawing([-reach, reach], [-reach, reach]) | {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 0, "yanchor": "top"}}
+    picture["annotations"] = [length]
     picture["margin"] = {"l": 4, "r": 4, "t": 4, "b": 36}
     return Figure(
         "assembly", "The parts to scale",
@@ -126,14 +131,25 @@ def zoom(whole: Figure, reducer: Reducer) -> Figure:
     centre = pin_places(reducer)[int(force.argmax())]
     half = 3.2 * MM * reducer.starts["pin_circle_radius"] * math.sin(math.pi / reducer.topology.pins)
     picture = look.drawing([centre.real - half, centre.real + half], [centre.imag - half, centre.imag + half])
+    # Outside of the discs there is room.
+    bar, length = scale_bar(centre, half, complex(math.copysign(1.0, centre.real), math.copysign(1.0, centre.imag)))
+    picture["annotations"] = [length]
     caption = f"The most loaded pin carries {force.max():,.0f} N; {int((force > 0.0).sum())} of {force.size} pins touch disc 1."
     if times := enlarged(reducer, parts_off(reducer)):
         caption += f" Errors are drawn {times:,.0f} times."
-    return Figure("teeth", "Teeth and pins", caption, whole.data, picture, 5, aspect="1 / 1.05")
+    return Figure("teeth", "Teeth and pins", caption, [*whole.data, bar | {"showlegend": False}], picture, 5, aspect="1 / 1.05")
+
+
+def scale_bar(centre: complex, half: float, corner: complex) -> tuple[Trace, Layout]:
+    """A round length, at most a fifth of a drawing ``half`` [mm] to each side of its ``centre``, in one ``corner`` of it, with how long it is above."""
+    length, tick = look.round_down(2.0 * SCALE_SHARE * half), 0.02j * half
+    start = centre + complex(0.96 * half * corner.real - (length if corner.real > 0.0 else 0.0), (0.96 if corner.imag < 0.0 else 0.86) * half * corner.imag)
+    bar = path(np.array([start + tick, start, start + length, start + length + tick]), look.INK, 1.5)
+    return bar, look.note(start.real + 0.5 * length, start.imag, f"{length:g} mm", yanchor="bottom", yshift=1)
 
 
 def cranks(reducer: Reducer) -> list[Trace]:
-    """Holes, lobes and rollers of disc 1, and pitch circles of sun and planets."""
+    """Holes, eccentrics and rollers of disc 1, and pitch circles of sun and planets."""
     s, t = reducer.starts, reducer.topology
     inner, outer, roller, axis = (MM * s[k] for k in ("inner_race_radius", "outer_race_radius", "roller_radius", "crank_circle_radius"))
     seats = axis * directions(360.0 * np.arange(t.cranks) / t.cranks)
@@ -174,7 +190,7 @@ def parts_off(reducer: Reducer) -> list[PartsOff]:
         found += [
             flanks_off(reducer, now, d),
             circles_off(f"holes of disc {d + 1}", outer, middles, MM * ways * hole, d),
-            circles_off(f"lobes of the cranks at disc {d + 1}", inner, middles, MM * turn * (throw * np.exp(1j * turned) - now["eccentricity"]), d),
+            circles_off(f"eccentrics of the cranks at disc {d + 1}", inner, middles, MM * turn * (throw * np.exp(1j * turned) - now["eccentricity"]), d),
         ]
     seat = now["carrier_hole_error_radial"] + now["seat_radial_added"] + 1j * (now["carrier_hole_error_tangential"] + now["seat_tangential_added"])
     # A seat's own radius is nobody's number: half of the race above it stands for it.
@@ -240,7 +256,7 @@ def undrawn(reducer: Reducer, off: list[PartsOff]) -> list[str]:
                 continue
             without = parts_off(replace(reducer, starts=reducer.starts | {variable.name: variable.start}))
             if same(without, off):
-                told.append(f"{name.replace('_', ' ')} ({variable.path.rpartition('.')[2].replace('_', ' ')})")
+                told.append(f"{effect_words(name)} ({variable.path.rpartition('.')[2].replace('_', ' ')})")
     return told
 
 

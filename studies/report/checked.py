@@ -1,10 +1,14 @@
 """The page of a reducer file that was checked: the parts to scale, and every number with where it is from."""
 
+from collections.abc import Sequence
+
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from reducers.checking import STATED, Check, Stated
 from reducers.completion.again import given_again
+from studies.catalogue_targets import Target
 from studies.report.assembly import assembly, zoom
+from studies.report.target_card import target_card
 
 
 def parts(found: Check) -> list[Figure]:
@@ -16,12 +20,13 @@ def parts(found: Check) -> list[Figure]:
     return [whole, zoom(whole, found.reducer)]
 
 
-def page_of(found: Check) -> Page:
+def page_of(found: Check, targets: Sequence[Target] = ()) -> Page:
+    """``targets``: what the file was made for."""
     t, filled = found.reducer.topology, [n for n in found.numbers if n.kind != STATED]
     cards = [
         Card("ratio", f"{found.figures['ratio']:.4g}"), Card("K1 = e z_p / R_p", f"{found.figures['K1']:.3f}", "below 1; 0.65 to 0.9 is usual"),
         Card("largest pin", f"{found.figures['largest_pin_mm']:.4g}", "without undercut", unit="mm"),
-        Card("filled in", str(len(filled)), f"of {len(found.numbers)} numbers"),
+        Card("filled in", str(len(filled)), f"of {len(found.numbers)} numbers"), *map(target_card, targets),
     ]  # fmt: skip
     sections = [
         Section("parts", "Parts", "Drawn from the file, with the forces at its torque." if not found.faults else found.faults[0], parts(found)),

@@ -26,7 +26,7 @@ class Side:
     sign: float
 
 
-INNER = Side("inner", "Inner raceway", "Crank lobe", "the lobe's eccentric direction", "eccentric direction", -1.0)
+INNER = Side("inner", "Inner raceway", "Crank eccentric", "the eccentric's direction", "eccentric direction", -1.0)
 OUTER = Side("outer", "Outer raceway", "Hole in the disc", "the hole's outward radial", "outwards from the axis", 1.0)
 
 
@@ -81,7 +81,7 @@ def raceway(result: Result, side: Side, times: float) -> Figure:
     d, c = deepest_bearing(result, side)
     radius = shapes.MM * result.plant[f"{side.name}_race_radius"]
     reach = 1.42 * radius
-    # Material lies within the crank's lobe and around the hole.
+    # Material lies within the crank's eccentric and around the hole.
     areas = [(1.0, look.STEEL)] if side is INNER else [(1.22, look.STEEL), (1.0, look.PAPER)]
     traces = [path(shapes.ring(s * radius), fill, 0.0, fill="toself", fillcolor=fill) for s, fill in areas]
     ways = 1j * shapes.directions(shapes.thin(result["race_phase"], 180))

@@ -1,5 +1,7 @@
 """The page of a completed reducer: the parts to scale, every number with its range, and which ranges matter for what."""
 
+from collections.abc import Sequence
+
 from fmu_src.display import read_in
 from pages import look
 from pages.content import Card, Page, Section, Table
@@ -7,20 +9,22 @@ from pages.look import Figure
 from reducers.completion.complete import Completion
 from reducers.completion.known import FROM_OPTIONS
 from reducers.reducer import Reducer
+from studies.catalogue_targets import Target
 from studies.completed_ranges import HOURS, RING_ERROR, THROW_ERROR, Influence, what_matters
 from studies.figure_units import figure_unit
 from studies.report.assembly import assembly, zoom
+from studies.report.target_card import target_card
 
 
-def page_of(completion: Completion, reducer: Reducer, found: list[Influence]) -> Page:
-    """``found`` may be empty: then nothing is said of signals."""
+def page_of(completion: Completion, reducer: Reducer, found: list[Influence], targets: Sequence[Target] = ()) -> Page:
+    """``found`` may be empty: then nothing is said of signals; ``targets``: what the catalogue says of it."""
     given = completion.given
     whole = assembly(reducer, given.diameter)
     # Ratio, pins, torque and cranks are numbers of the file, too.
     known = sum(number.is_given or number.name in FROM_OPTIONS for number in completion.numbers.values())
     cards = [card(completion, name, label) for name, label in (
         ("pin.circle_radius", "pin circle radius"), ("pin.radius", "pin radius"), ("crank.eccentricity", "eccentricity"), ("mesh.width", "width of a disc"),
-    )]  # fmt: skip
+    )] + [target_card(target) for target in targets]  # fmt: skip
     sections = [
         Section("parts", "Parts", "Drawn from the completed file.", [whole, zoom(whole, reducer)]),
         *([signals(completion, found)] if found else []),

@@ -114,7 +114,7 @@ def sentences(result: Result) -> list[str]:
 
 
 WHERE = {
-    "disc_flank_um": "on the flanks of the discs", "inner_raceway_um": "on the inner raceways (crank lobes)",
+    "disc_flank_um": "on the flanks of the discs", "inner_raceway_um": "on the inner raceways (eccentrics of the cranks)",
     "outer_raceway_um": "on the outer raceways (holes in the discs)", "pin_um": "on the pins",
 }  # fmt: skip
 

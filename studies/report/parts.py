@@ -43,7 +43,7 @@ def filled(points: Points, fill: str, border: str = look.QUIET, width: float = 1
 
 
 def disc(result: Result) -> Figure:
-    """One disc in its ring of pins, lobe's eccentric direction upwards, every worn surface coloured by depth."""
+    """One disc in its ring of pins, eccentrics upwards, every worn surface coloured by depth."""
     plant, mm, up = result.plant, shapes.MM, 1j
     d, _ = result.deepest_tooth
     colours = Colours(result)
@@ -92,7 +92,7 @@ def bearings(result: Result, d: int, centre: complex, up: complex, colours: Colo
         lobes.append(shapes.ring(inner, middle))
         seats = (inner + roller) * place * shapes.directions(360.0 * np.arange(t.rollers) / t.rollers)
         rollers += [shapes.ring(roller, middle + seat, 24) for seat in seats]
-        # Raceway angles count from the hole's outward radial and from the lobe's eccentric direction.
+        # Raceway angles count from the hole's outward radial and from the eccentric's direction.
         way = ways * place
         colours.take_off(middle + outer * way, way, shapes.thin(result["outer_race_wear"][-1, d, c], 120))
         way = ways * up

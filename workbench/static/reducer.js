@@ -277,7 +277,7 @@ export function show(root, context) {
           ask();
         },
       }),
-      "take the gap of the flanks that makes the lost motion the catalogue's",
+      "refuse where no gap, clearance and play within their ranges make the lost motion the catalogue's",
     );
     ask();
     return [h("div", { class: "panel" }, h("h1", {}, "A reducer of which little is known"), h("div", { class: "row" }, fields, meets), said), result];
