@@ -25,6 +25,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
+from discrepancy.sample_errors import patterns_text, plain, samples_text
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from discrepancy.written_number import digits_of, rounded
@@ -177,7 +178,7 @@ def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidat
 
 
 def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:
-    """Error over noise before and after, on the held-out runs or on those of ``indices``: the one that a diagnosis gives, too."""
+    """The misfit in the patterns before and after, on the held-out runs or on those of ``indices``: the one that a diagnosis gives, too."""
     return HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders, indices=indices).judge(fit)
 
 
@@ -187,24 +188,22 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
             " measure at a condition that was not used, or mark one as held_out"
         )
-    # Patterns stand out of noise that drowns single samples; then the noise of samples is no measure of them.
+    # Patterns stand out of noise that drowns single samples.
     drowned = bool(judged.rms) and all(row["before"] <= row["floor"] for row in judged.rms.values())
-    measure = (
-        "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned
-        else "times the noise, in the patterns that carry the misfit and its own"
-    )  # fmt: skip
+    little = "; single samples are off by less than their noise" if drowned else ""
+    samples = f"{samples_text(judged.rms, plain)}; " if judged.rms else ""
+    patterns = patterns_text(judged.before, judged.after)
     if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
         return NOT_PROVEN, (
-            f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"
-            " they do not show this effect; hold out a condition that does"
+            f"{samples}{patterns}: within the noise before and after, the unused runs do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
         over = judged.after > WITHIN_NOISE and judged.p_after < BY_CHANCE
-        left = f"; {judged.after:.1f} times what noise leaves there is still left to explain" if over else ""
-        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}{left}"
+        left = f"; {judged.after:.1f} times what noise leaves in the patterns is still left to explain" if over else ""
+        return HELPED, f"{samples}{patterns}{little}{left}"
     return DID_NOT_HELP, (
-        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
-        " runs fell: the effect fits noise or stands for another one; the model stays as it was"
+        f"{samples}{patterns}{little}: on unused runs it did not fall, although on fitted runs it did; the effect fits noise or stands for another one;"
+        " the model stays as it was"
     )
 
 

@@ -35,7 +35,7 @@ def tables_of(result: Comparison | Answer | ModelFile) -> list[Table]:
 
 
 def ladder_table(file: ModelFile) -> Table:
-    """The steps of a model: error over noise before and after, on fitted and on unused runs."""
+    """The steps of a model: misfit in the patterns before and after, on fitted and on unused runs."""
     errors = ("training_before", "training_after", "held_out_before", "held_out_after")
     rows = [
         {"step": number, "effects": " + ".join(step["effects"]), "verdict": step.get("verdict", ""), "kept": step.get("kept", True)}

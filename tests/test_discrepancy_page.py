@@ -446,7 +446,7 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
     assert "runout alone it takes away 93 % of the misfit; added to the others, < 1 % more of it" in told
-    assert told.count("error on unused conditions") == 1 and "together this explains" in told
+    assert told.count("misfit in the patterns") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)
     bars = figure(page, "shares")["data"]

@@ -20,6 +20,7 @@ from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.prediction.orders import apart_from_remark
+from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, plain, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -61,7 +62,7 @@ def ratio_colour(ratio: float, held_out: bool) -> str:
 
 def show_comparison(comparison: Comparison) -> None:
     out = console(WIDTH)
-    table = Table(title=f"{comparison.model.file.heading} against {comparison.model.campaign.name}", title_justify="left")
+    table = Table(title=f"{comparison.model.file.heading} against {comparison.model.campaign.name}: {SAMPLES} ({OF_SAMPLES})", title_justify="left")
     for name in ("signal", "runs", "", "error", "noise", "error/noise"):
         table.add_column(name, justify="left" if name in ("signal", "") else "right")
     for row in comparison.signals:
@@ -159,7 +160,7 @@ def show_answer(answer: Answer) -> None:
     if left:
         out.print(f"\nnot explained: {left}")
     if sizes := left_sizes(answer):
-        out.print(f"every sample is off by  {sizes}")
+        out.print(f"{SAMPLES}, with what is named: {sizes}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(told_apart_by(answer))}; `rvwear next` proposes what would")
     for text in stand_ins(answer).values():
@@ -200,7 +201,8 @@ def show_extension(extension: Extension) -> None:
     for row in step["signals"]:
         where = "held out" if row["held_out"] else "fitted"
         before, after, noise = (shown(row[k], row["unit"], row["signal"]) for k in ("before", "after", "noise_floor"))
-        out.print(f"  {row['signal']} ({where}): {before} -> {after}, noise {noise}")
+        ratios = " -> ".join(f"{ratio(row[k], row['noise_floor']):.2f}" for k in ("before", "after"))
+        out.print(f"  {row['signal']} ({where}): {SAMPLES} {ratios} ({before} -> {after}, noise {noise})")
     for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
         if held := held_text(name, extension.file):
             out.print(f"  {name}: {held}")
@@ -212,17 +214,20 @@ def show_ladder(file: ModelFile) -> None:
     if not file.steps:
         out.print(f"{file.heading} has no steps yet: rvwear extend adds them")
         return
-    table = Table(title=f"{file.heading}: error over noise in the patterns that carry the misfit, step by step", title_justify="left")
-    for name in ("step", "campaign", "fitted runs", "unused runs", "verdict"):
+    table = Table(title=f"{file.heading}: step by step", title_justify="left")
+    for name in ("step", "campaign", SAMPLES, f"{PATTERNS}, {FITTED}", f"{PATTERNS}, {UNUSED}", "verdict"):
         table.add_column(name, justify="left")
     for step in file.steps:
+        told = step_of(step).samples
+        samples = f"{told[1].before:.2f} -> {told[1].after:.2f} ({plain(told[0])}, {UNUSED if told[2] else FITTED})" if told else "-"
         fitted, unused = (
             "-" if step.get(f"{runs}_before") is None else f"{step[f'{runs}_before']:.2f} -> {step[f'{runs}_after']:.2f}"
             for runs in ("training", "held_out")
         )
         verdict = step.get("verdict", "") + ("" if step.get("kept", True) else ", not kept")
-        table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), fitted, unused, verdict)
+        table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), samples, fitted, unused, verdict)
     out.print(table)
+    out.print(f"{SAMPLES}: of the signal that was furthest off, {OF_SAMPLES}; {PATTERNS}: {COUNTED}")
     show_left(file.steps[-1], out)
 
 

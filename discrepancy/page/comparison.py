@@ -10,6 +10,7 @@ from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
+from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
 from pages.content import Card, Page, Section, Table
@@ -107,7 +108,7 @@ def cards(result: Comparison) -> list[Card]:
             place(row)[:1].upper() + place(row)[1:],
             number(row["ratio"]),
             f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
-            unit="times noise",
+            unit="times noise, all samples",
             tone=tone(row["ratio"], row["held_out"]),
             why=whys.of_error(result.diagnostician.space, row),
         )
@@ -123,7 +124,7 @@ def errors(result: Comparison) -> Section:
     held = {run["condition"] for run in result.runs if run["held_out"]}
     heat = maps.grid(
         "Error over noise by signal and condition",
-        "Root mean square over the replicates; pale is as good as the noise allows, white was not measured.",
+        "Root mean square over all samples of the replicates; pale is as good as the noise allows, white was not measured.",
         "error_map",
         {k: series.rms(v) for k, v in cells.items()},
         held,
@@ -139,7 +140,7 @@ def errors(result: Comparison) -> Section:
         ]
         for s in result.signals
     ]
-    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5),
+    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", SAMPLES], rows, (2, 3, 4, 5),
                   whys=[whys.of_error(result.diagnostician.space, s) for s in result.signals])
     lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
     # A map of one condition says what the table says.
