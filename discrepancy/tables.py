@@ -71,7 +71,7 @@ def answer_tables(result: Answer) -> list[Table]:
     effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect, result)], {})
     named = [effects] if effects.columns else []
     curves = curve_tables(space, predictions, result.model.campaign)
-    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
+    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures, result.figures_after),
             *calibrated_rows(result.model, space), *curves]  # fmt: skip
 
 
@@ -106,14 +106,15 @@ def in_bench_units(row: Mapping[str, Any]) -> dict[str, Any]:
     return dict(row) | {key: scale.number(row[key]) for key in SCALED} | {"unit": scale.unit}
 
 
-def figure_rows(figures: Sequence[KeyFigure]) -> Table:
+def figure_rows(figures: Sequence[KeyFigure], after: Sequence[KeyFigure] = ()) -> Table:
+    """``after``: the same with what a diagnosis names, if it names anything, in columns of their own."""
     rows = []
-    for f in figures:
+    for k, f in enumerate(figures):
         scale = of_signal(f.told_as, f.unit)
         rows.append({
             "signal": f.signal, "condition": f.condition, "figure": f.name, "measured": scale.number(f.measured), "model": scale.number(f.model),
             "noise": scale.factor * f.noise, "unit": scale.unit, "off_in_noise": f.off, "runs": f.runs,
-        })  # fmt: skip
+        } | ({"with_effect": scale.number(after[k].model), "off_in_noise_with_effect": after[k].off} if after else {}))  # fmt: skip
     return rows_table("key_figures", rows, {})
 
 

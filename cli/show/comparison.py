@@ -79,16 +79,21 @@ def show_comparison(comparison: Comparison) -> None:
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool) -> None:
-    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest."""
+def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "") -> None:
+    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest.
+
+    ``after``: the same with what was ``added`` to the model, if anything was.
+    """
     worst = furthest(figures)
     if not worst:
         return
-    table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else ""))
-    heads = ("figure", "condition", "measured", "noise", "model", "", "off/noise")
-    numbers = ("measured", "noise", "model", "off/noise")
-    rows = figure_rows(worst[:LONGEST])
-    fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=numbers)
+    table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else "")
+                  + (f", and with {added} in it" if after else ""))  # fmt: skip
+    more = {id(f): changed for f, changed in zip(figures, after)}
+    heads = ("figure", "condition", "measured", "noise", "model", *["with it"] * bool(after), "", "off/noise")
+    numbers = ("measured", "noise", "model", "with it", "off/noise")
+    rows = figure_rows(worst[:LONGEST], more)
+    fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=[name for name in heads if name in numbers])
     out.print(table)
     for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in worst[:LONGEST]))):
         out.print(remark)
@@ -96,22 +101,27 @@ def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibr
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
 
 
-def figure_rows(figures: Sequence[KeyFigure]) -> list[tuple[str, ...]]:
-    """Cells of key figures in groups, their signal in a line above each: in a column of its own it would take the room that names need."""
+def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) -> list[tuple[str, ...]]:
+    """Cells of key figures in groups, their signal in a line above each: in a column of its own it would take the room that names need.
+
+    ``after``: by their identity what they are with an effect, of all or of none.
+    """
+    width = 8 if after else 7
     groups: dict[str, list[KeyFigure]] = {}
     for f in figures:
         groups.setdefault(f.signal, []).append(f)
     rows: list[tuple[str, ...]] = []
     for signal, members in groups.items():
-        rows += [("",) * 7] * bool(rows) + [(f"{signal}:", *[""] * 6), *map(figure_row, members)]
+        rows += [("",) * width] * bool(rows) + [(f"{signal}:", *[""] * (width - 1)), *(figure_row(f, after.get(id(f))) for f in members)]
     return rows
 
 
-def figure_row(f: KeyFigure) -> tuple[str, ...]:
-    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
-    noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
-    off = f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"
-    return apart_from_remark(f.name)[0], f.condition, measured, noise, model, unit, off
+def figure_row(f: KeyFigure, after: KeyFigure | None) -> tuple[str, ...]:
+    both = [f, *([after] if after else [])]
+    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, *(one.model for one in both)))
+    noise, *models = (number if own == unit else f"{number} {own}" for number, _, own in others)
+    off = " -> ".join(f"{abs(one.off):.{0 if abs(one.off) >= WHOLE else 1}f}" for one in both)
+    return apart_from_remark(f.name)[0], f.condition, measured, noise, *models, unit, off
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
@@ -168,7 +178,7 @@ def show_answer(answer: Answer) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
-    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances))
+    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
     rejected = turned_down(answer)[:6]
     if rejected:
         out.print("\nclosest rivals")

@@ -63,6 +63,11 @@ def effect_title(name: str) -> str:
     return effect + (f" ({variant})" if variant else "")
 
 
+def effects_title(names: str) -> str:
+    """``hole_position_errors.hole_2 + play`` as words."""
+    return " + ".join(effect_title(name) for name in names.split(" + "))
+
+
 def signal_title(signal: str) -> str:
     """``wear_depth[surface=pin]`` as words."""
     name, _, tags = signal.partition("[")

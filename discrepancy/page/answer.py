@@ -9,6 +9,7 @@ from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, 
 from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
 from discrepancy.page.amounts import effect_title, in_words, signal_title
+from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
 from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
@@ -37,7 +38,7 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
-    sections += comparison.figures_section(answer.figures, answer.model.file, bool(diagnosis.nuisances))
+    sections += figures_of_answer(answer)
     if diagnosis.base_off:
         sections.insert(0, base_off(answer))
     where = comparison.conditions(answer, runs) if runs else ""
