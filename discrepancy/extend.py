@@ -18,7 +18,9 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
+from discrepancy.inference.telling import with_base
 from discrepancy.inference.verdict import Settings
+from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.locked_zeros import zeros_told
 from discrepancy.model_file import ModelFile
@@ -96,16 +98,17 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
-    numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
+    with task("looking at how well each parameter is known"):
+        sure = intervals_of(diagnostician, fit, settings.coverage, answer)
     settings_found = dict(file.settings)
     for candidate in fit.candidates:
         if candidate.part == BASE:
             # A number of the reducer file that was assumed: from now on as it was measured.
-            settings_found |= {p.name: known_to(fit.fit.values[p.name], numbers[p.name].interval) for p in candidate.parameters}
+            settings_found |= {p.name: known_to(fit.fit.values[p.name], sure[p.name]) for p in candidate.parameters}
             continue
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
-                     "low": float(numbers[p.name].interval[0]), "high": float(numbers[p.name].interval[1])}
+                     "low": float(sure[p.name][0]), "high": float(sure[p.name][1])}
             for p in candidate.parameters
         })  # fmt: skip
     extended = replace(file, effects=effects, settings=settings_found)
@@ -140,6 +143,18 @@ def beginning(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     """One that has done nothing yet."""
     model = PhysicalModel(file, campaign, jobs=jobs)
     return Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+
+
+def intervals_of(doctor: Diagnostician, fit: Refit, coverage: float, answer: Answer | None) -> dict[str, tuple[float, float]]:
+    """By parameter the interval to rely on, as the diagnosis of the same fit tells it."""
+    numbers = {e.name: e for e in estimates(doctor.space, fit, coverage, doctor.inflation(fit))}
+    names = {c.name for c in fit.candidates}
+    if answer and any({c.name for c in member.candidates} == names for member in answer.diagnosis.fits.members):
+        told = {name: relied_on(entry) for e in answer.diagnosis.effects if e.name in names for name, entry in e.parameters.items()}
+    else:
+        factors = doctor.beside_base(fit)
+        told = {p.name: relied_on({"interval": numbers[p.name].interval} | with_base(numbers[p.name], p, factors)) for p in fit.own}
+    return {name: e.interval for name, e in numbers.items()} | told
 
 
 def known_to(value: float, interval: tuple[float, float]) -> float:

@@ -13,6 +13,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.compare import Comparison, calibrated_numbers
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.defined_samples import defined_at
@@ -90,7 +91,7 @@ def parameter_rows(effect: Mapping[str, Any], answer: Answer) -> list[dict[str, 
     """A row a parameter, with the 95 % interval."""
     rows = []
     for name, p in effect["parameters"].items():
-        low, high = p["interval"]
+        low, high = relied_on(p)
         told = told_name(name, tables_in(answer.model))
         scale = of_estimate(p)
         rows.append({

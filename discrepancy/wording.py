@@ -165,12 +165,12 @@ def below_noise(answer: Answer, effect: dict[str, Any]) -> bool:
 
 
 def with_base_text(entry: Mapping[str, Any]) -> str:
-    """What an interval takes for known, where that is less sure than the interval is narrow; empty elsewhere."""
+    """What the interval that is told leaves open, and which it would be otherwise; empty where both are one."""
     if "interval_with_base" not in entry:
         return ""
     scale = of_estimate(entry)
-    low, high = (scale.number(v) for v in entry["interval_with_base"])
-    return f"with the base model's numbers as its file has them; {interval_text(low, high, 3, readable)} with each free within its range"
+    low, high = (scale.number(v) for v in entry["interval"])
+    return f"with each of the base model's numbers free within its range; {interval_text(low, high, 3, readable)} with them as its file has them"
 
 
 def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.intervals import estimate_text
+from discrepancy.intervals import estimate_text, relied_on
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
@@ -105,5 +105,5 @@ def signal_axis(signal: str, unit: str) -> str:
 def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     found = of_estimate(entry)
-    low, high = (found.number(end) for end in entry["interval"])
+    low, high = (found.number(end) for end in relied_on(entry))
     return *estimate_text(found.number(entry["value"]), (low, high), 3, number), pretty(found.unit)
