@@ -92,6 +92,9 @@ def test_where_nothing_can_be_added_no_line_says_so():
     given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
     assert commands.line_after(given, answer_of(BASE_OFF, [], off=[("declared", None)])) == ""
     assert commands.line_after(given, answer_of(UNKNOWN, [])).startswith("rvwear next RV20E-121 'my bench'")
+    # An adequate model is there to be used: "none" ended without a word of how one goes on.
+    line = commands.line_after(given, answer_of(NONE, [])).partition("    #")[0]
+    assert parser().parse_args(shlex.split(line)[1:]).reducer == "RV20E-121"
     assert "--draft effects" in commands.line_after(given, answer_of(UNKNOWN, [], laws=[SimpleNamespace(forms=["linear"])]))
 
 

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 
 
 def line_after(options: argparse.Namespace, answer: "Answer") -> str:
-    """The command with which one goes on from a diagnosis; empty where nothing is missing, or nothing that a command could add."""
+    """The command with which one goes on from a diagnosis; empty where there is nothing that a command could add."""
     from discrepancy.compare import another_reducer
     from discrepancy.held_names import LOCKED_AT
     from discrepancy.hidden_by_position import POSITION
     from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
-    if answer.verdict == NONE or (answer.verdict == BASE_OFF and not numbers_of(answer)):
+    if answer.verdict == NONE:
+        return f"{shlex.join(['rvwear', 'build', '--reducer', options.model, '--output', 'units'])}    # nothing is missing here: the FMUs of this model"
+    if answer.verdict == BASE_OFF and not numbers_of(answer):
         return ""
     data = ["--data", options.data] if options.data else []
     if named := another_reducer(answer.model):
