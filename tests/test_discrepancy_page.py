@@ -364,7 +364,7 @@ def test_next_experiment(answer, tmp_path):
     nothing = written(NextRun(answer, None, ["clearance"], "nothing is left to separate: clearance stands alone"), tmp_path)
     assert "clearance stands alone" in nothing and not figures_of(nothing)
     off = "no effect is missing: the base model is off (mesh.stiffness); correct it"
-    assert off.capitalize() in written(NextRun(answer, None, [], off), tmp_path)
+    assert "No effect is missing: the base model is off (mesh.stiffness). Correct it." in written(NextRun(answer, None, [], off), tmp_path)
     none = NextExperiment(False, "cannot be separated on this rig", proposals[1:], {})
     assert "None of 1 possible experiments" in written(NextRun(answer, none, ["a", "b"], none.verdict), tmp_path)
 

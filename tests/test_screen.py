@@ -199,7 +199,7 @@ def test_every_view_begins_with_the_number_of_the_comparison_by_its_name(capsys)
     step = {"campaign": "c", "effects": ["play"], "signals": rows, "held_out_before": 419.0, "held_out_after": 1.2}
     shows.show_ladder(replace(load_model("RV20E-121"), steps=(step,)))
     shown = " ".join(capsys.readouterr().out.split())
-    assert "15.67 -> 1.00" in shown and "error over noise, all samples: of the signal that was furthest off, 1: noise alone" in shown
+    assert "15.67 -> 1.00" in shown and "error over noise, all samples: of the signal that was furthest off, of unused runs where there are, 1: noise alone" in shown
 
 
 def test_only_what_unused_runs_show_is_good():

@@ -20,7 +20,7 @@ from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.prediction.orders import apart_from_remark
-from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, plain, ratio
+from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -72,7 +72,7 @@ def show_comparison(comparison: Comparison) -> None:
     out.print(table)
     if comparison.nuisances:
         out.print("calibrated to this campaign before anything was compared:")
-        for text in calibrated_texts(comparison.model, comparison.nuisances):
+        for text in calibrated_texts(comparison.model, comparison.nuisances, comparison.diagnostician.space.base):
             out.print(f"  {text}")
     show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
@@ -226,10 +226,10 @@ def show_ladder(file: ModelFile) -> None:
         return
     table = Table(title=f"{file.heading}: step by step", title_justify="left")
     for name in ("step", "campaign", SAMPLES, f"{PATTERNS}, {FITTED}", f"{PATTERNS}, {UNUSED}", "verdict"):
-        table.add_column(name, justify="left")
+        table.add_column(name, justify="left", overflow="fold")
     for step in file.steps:
         told = step_of(step).samples
-        samples = f"{told[1].before:.2f} -> {told[1].after:.2f} ({plain(told[0])}, {UNUSED if told[2] else FITTED})" if told else "-"
+        samples = f"{told[1].before:.2f} -> {told[1].after:.2f}" if told else "-"
         fitted, unused = (
             "-" if step.get(f"{runs}_before") is None else f"{step[f'{runs}_before']:.2f} -> {step[f'{runs}_after']:.2f}"
             for runs in ("training", "held_out")
@@ -237,7 +237,7 @@ def show_ladder(file: ModelFile) -> None:
         verdict = step.get("verdict", "") + ("" if step.get("kept", True) else ", not kept")
         table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), samples, fitted, unused, verdict)
     out.print(table)
-    out.print(f"{SAMPLES}: of the signal that was furthest off, {OF_SAMPLES}; {PATTERNS}: {COUNTED}")
+    out.print(f"{SAMPLES}: of the signal that was furthest off, of {UNUSED} where there are, {OF_SAMPLES}\n{PATTERNS}: {COUNTED}")
     show_left(file.steps[-1], out)
 
 
@@ -249,7 +249,8 @@ def show_left(step: Mapping[str, Any], out: Console) -> None:
 
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
-    out.print(run.verdict)
+    for line in run.lines:
+        out.print(line)
     if run.result is not None:
         show_proposals(run, run.result, out)
     show_asked(run, out)

@@ -4,7 +4,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import CONSPICUOUS, Comparison
+from discrepancy.compare import CONSPICUOUS, Comparison, deviations_of
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
@@ -220,7 +220,7 @@ def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
 
 
 def nuisances(result: Comparison) -> Section:
-    known = {p.name: p for p in result.model.nuisances}
+    known, deviations = {p.name: p for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
     rows = []
     for name, value in result.nuisances.items():
         parameter = known.get(name)
@@ -228,9 +228,11 @@ def nuisances(result: Comparison) -> Section:
         scale = of_parameter(abs(value), unit)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
         told = told_name(name, tables_of(result.model))
-        rows.append([told, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        size = abs(scale.factor) * deviations.get(name, 0.0)
+        sure = f"{number(scale.number(value), 4)}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
+        rows.append([told, sure, amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
-        "Fitted to the campaign before anything was compared."
+        "Fitted to the campaign before anything was compared; ± is the standard deviation that noise leaves."
         if rows
         else "Nothing was declared for calibration: the model stands as it is."
     )

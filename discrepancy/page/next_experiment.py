@@ -34,8 +34,7 @@ def page(run: NextRun) -> Page:
         # The table that answers stands first.
         sections = [*sections, left] if run.result else [left, *sections]
     rivals = listed([effect_title(r) for r in run.rivals])
-    verdict = readable(run.verdict)
-    finding = verdict[:1].upper() + verdict[1:] + "."
+    finding = " ".join(f"{line[:1].upper()}{line[1:]}." for line in map(readable, run.lines))
     where = f"To separate {rivals}" if len(run.rivals) > 1 else "Diagnosis: " + run.answer.verdict
     return Page(
         "The next experiment", comparison.title(run.answer), where, finding, cards(run, currency), sections, run.answer.warnings
