@@ -98,8 +98,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
-    with task("looking at how well each parameter is known"):
-        sure = intervals_of(diagnostician, fit, settings.coverage, answer)
+    sure = intervals_of(diagnostician, fit, settings.coverage, answer)
     settings_found = dict(file.settings)
     for candidate in fit.candidates:
         if candidate.part == BASE:

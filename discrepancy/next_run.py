@@ -207,10 +207,10 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
     if best.least >= ENOUGH:
         cheapest = f"the cheapest that tells them apart ({apart_text(best)})"
         if is_measured(best, campaign):
-            return f"{said}: the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
-        return f"{said}: whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
+            return f"{said}; the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
+        return f"{said}; whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
     most = f"most {best.experiment} ({apart_text(best)})"
-    return f"{said}: no further experiment within the limits would tell these apart by itself, {most}"
+    return f"{said}; no further experiment within the limits would tell these apart by itself, {most}"
 
 
 def apart_text(best: Proposal) -> str:

@@ -202,6 +202,16 @@ def test_every_view_begins_with_the_number_of_the_comparison_by_its_name(capsys)
     assert "15.67 -> 1.00" in shown and "error over noise, all samples: of the signal that was furthest off, of unused runs where there are, 1: noise alone" in shown
 
 
+@pytest.mark.parametrize(("verdict", "head"), [(NONE, "what came nearest, none of it significant"), (ONE, "closest rivals")])
+def test_of_nothing_there_are_no_rivals(capsys, verdict, head):
+    answer = answer_of(verdict, True)
+    answer.diagnosis.rejected = [{"name": "drag", "chi2_difference": None, "reason": "score test: p = 1"}]
+    answer.model.bench = SimpleNamespace(tables=())
+    answer.effects = []
+    shows.show_answer(answer)
+    assert f"\n{head}\n  drag: " in capsys.readouterr().out
+
+
 def test_only_what_unused_runs_show_is_good():
     rms = {"hysteresis": {"before": 80e-3, "after": 3e-3, "floor": 3e-3}}
     assert tone(answer_of(ONE, True, rms)) == "good"

@@ -14,6 +14,7 @@ from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
+from discrepancy.inference.verdict import NONE
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
@@ -181,7 +182,8 @@ def show_answer(answer: Answer) -> None:
     show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
     rejected = turned_down(answer)[:6]
     if rejected:
-        out.print("\nclosest rivals")
+        # Of nothing there are no rivals.
+        out.print("\nwhat came nearest, none of it significant" if answer.verdict == NONE else "\nclosest rivals")
         for rival in rejected:
             out.print(f"  {rival['name']}: {rival['reason']}")
 

@@ -5,7 +5,7 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.verdict import SET, SEVERAL
+from discrepancy.inference.verdict import NONE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.amounts import with_minus
@@ -210,7 +210,8 @@ def rivals(answer: Answer) -> Section:
             )
         ]
     table = Table("", ["effect", "reason"], rows, whys=[whys.of_rival(r) for r in rejected])
-    return Section("rivals", "Rivals and why they were turned down", lead, figures, [table])
+    title = "What came nearest, none of it significant" if answer.verdict == NONE else "Rivals and why they were turned down"
+    return Section("rivals", title, lead, figures, [table])
 
 
 def recovered(answer: Answer) -> Section:

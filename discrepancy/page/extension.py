@@ -21,7 +21,7 @@ def extension_page(result: Extension) -> Page:
     kept = "" if step.kept else " The model stays as it was."
     finding = (
         f"{step.label.capitalize()}: {result.verdict}. "
-        f"{amounts.in_words(step.reason[:1].upper() + step.reason[1:])}.{kept if 'stays' not in step.reason else ''}"
+        f"{reason_text(step)}.{kept if 'stays' not in step.reason else ''}"
     )
     finding += left_sentence(step)
     warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
@@ -63,6 +63,12 @@ def model_page(file: ModelFile) -> Page:
         parameters(file),
     ]
     return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+
+
+def reason_text(step: Step) -> str:
+    """Why a step has its verdict, in the words and signs of a page; steps of before may begin otherwise."""
+    text = amounts.in_words(step.reason).replace("->", "→")
+    return text[:1].upper() + text[1:]
 
 
 def left_sentence(step: Step) -> str:
@@ -108,7 +114,7 @@ def signal_figure(step: Step, place: int = 0) -> Figure:
     )
     title = f"Step {place}: {step.label}" if place else SAMPLES[:1].upper() + SAMPLES[1:]
     caption = (
-        f"{step.verdict[:1].upper() + step.verdict[1:]}: {amounts.in_words(step.reason)}."
+        f"{step.verdict[:1].upper() + step.verdict[1:]}: {reason_text(step)}."
         if place
         else f"Root mean square over the runs of each signal, the noise that of replicates; {OF_SAMPLES}."
     )
