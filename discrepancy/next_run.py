@@ -92,13 +92,15 @@ class Asked:
 
 @dataclass(frozen=True)
 class NextRun:
-    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains."""
+    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains; ``untold``: with what
+    the verdict begins, which no run of these signals tells."""
 
     answer: Answer
     result: NextExperiment | None
     rivals: list[str]
     verdict: str
     asked: list[Asked] = field(default_factory=list)
+    untold: list[str] = field(default_factory=list)
 
     @property
     def lines(self) -> list[str]:
@@ -166,7 +168,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
         untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
-        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left)
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])

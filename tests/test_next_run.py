@@ -196,6 +196,7 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": four, "other_places": ["crank 2 at disc 2"]}]
     said = proposal_for(answer, CAMPAIGN).verdict
     assert f"at which part it is (crank lobe errors at {four}) stays open; no other run of these signals tells, for they are the same with each" in said
+    assert proposal_for(answer, CAMPAIGN).untold == parts_untold(answer.effects)
     assert "exchange one of them for that of another unit" in said
     # Once it stands in the model file it is as open as before.
     kept = {"untold": parts_untold(answer.effects), "kept": True}

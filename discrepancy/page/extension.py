@@ -44,6 +44,10 @@ def model_page(file: ModelFile) -> Page:
     judged = [s.held_out for s in kept if s.held_out]
     finding = f"{len(kept)} of {len(steps)} steps are part of the model."
     if judged:
+        first, last = kept[0].samples, kept[-1].samples
+        if first and last and (first[0], first[2]) == (last[0], last[2]):
+            off = f"{number(first[1].before)} → {number(last[1].after)}"
+            finding += f" {SAMPLES.capitalize()}: {off} ({amounts.signal_title(last[0])}, {UNUSED if last[2] else FITTED})."
         went = "fell" if judged[-1].after < judged[0].before else "went"
         finding += f" The {PATTERNS} of unused runs {went} from {number(judged[0].before)} to {number(judged[-1].after)} ({OF_PATTERNS})."
     else:
