@@ -5,6 +5,7 @@ from typing import Any
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.verdict import BaseError
+from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile, every_effect, parameter_variable
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -56,14 +57,17 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
 
 def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
     """An estimate: value, interval and standard deviation in the field's unit."""
-    low, high = entry["interval"]
+    low, high = relied_on(entry)
     scale = of_estimate(entry)
     told = {"value": scale.number(entry["value"]), "interval": [scale.number(low), scale.number(high)], "unit": scale.unit}
     if "standard_deviation" in entry:
         told["standard_deviation"] = abs(scale.factor) * entry["standard_deviation"]
     if "interval_with_base" in entry:
-        told["interval_with_base"] = [scale.number(v) for v in entry["interval_with_base"]]
-    return {**entry, **told, "si": {key: entry[key] for key in told}}
+        # Of the noise alone, with the base model's numbers as its file has them.
+        told["interval_with_base_as_it_is"] = [scale.number(v) for v in entry["interval"]]
+    si = {**entry, "interval": [low, high], "interval_with_base_as_it_is": entry["interval"]}
+    plain = {key: value for key, value in entry.items() if key != "interval_with_base"}
+    return {**plain, **told, "si": {key: si[key] for key in told}}
 
 
 def parameters(entries: Mapping[str, Mapping[str, Any]], tables: Sequence[Table]) -> dict[str, dict[str, Any]]:

@@ -1,5 +1,6 @@
 """Step 1: calibrate the declared nuisances, predict every run, hold it against what was measured."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
@@ -10,6 +11,7 @@ import numpy as np
 
 from discrepancy import as_told
 from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
+from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import Finding, missing_factors
@@ -17,9 +19,11 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.locked_doubts import locked_doubts
@@ -119,18 +123,34 @@ def floating_text(floating: Mapping[str, int]) -> str:
             " there again; key figures are read without them, a lost motion not at all where one way is left out at its torque")
 
 
-def calibrated_texts(model: PhysicalModel, values: Mapping[str, float]) -> list[str]:
+def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
     """What of the model was calibrated to the campaign before it was held against it, a line for each meaning; empty for nothing.
 
-    ``angle_zero[1] = -62.87 arcmin, angle_zero[2] = 3.1 arcmin: output angle of the model at the record's angle 0``.
+    ``angle_zero[1] = -62.87 +- 0.02 arcmin, angle_zero[2] = 3.1 +- 0.02 arcmin: output angle of the model at the record's angle 0``: with the standard
+    deviation that noise leaves, within which a calibration beside other effects finds another number.
     """
+    deviations = deviations_of(base) if base else {}
     meanings = {p.name: p.description for p in model.nuisances}
     lines: dict[str, list[str]] = {}
     for own, (name, value, scale) in zip(values, calibrated_numbers(model, values)):
         # Without one there is nothing that numbers have in common.
-        lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {scale.text(value, 4)}")
+        lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {with_deviation(value, deviations.get(own, 0.0), scale)}")
     known = set(meanings.values())
     return [", ".join(numbers) + (f": {meaning}" if meaning in known else "") for meaning, numbers in lines.items()]
+
+
+def deviations_of(base: Fit) -> dict[str, float]:
+    """By calibrated number the standard deviation (SI) that noise leaves."""
+    return dict(zip(base.names, map(float, np.sqrt(np.diag(covariance_of(base))))))
+
+
+def with_deviation(value: float, deviation: float, scale: Scale) -> str:
+    """``1.015 +- 0.031``, in the unit behind it; without a deviation the number alone."""
+    size = abs(scale.factor) * deviation
+    if not 0.0 < size < math.inf:
+        return scale.text(value, 4)
+    number, unit = readable(scale.number(value), 4), "" if scale.unit == "1" else scale.unit
+    return f"{number} +- {readable(size, 2)} {unit}".rstrip()
 
 
 def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> list[tuple[str, float, Scale]]:

@@ -18,13 +18,16 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
+from discrepancy.inference.telling import with_base
 from discrepancy.inference.verdict import Settings
+from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.locked_zeros import zeros_told
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
+from discrepancy.sample_errors import patterns_text, plain, samples_text
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from discrepancy.written_number import digits_of, rounded
@@ -95,16 +98,16 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
-    numbers = {e.name: e for e in estimates(diagnostician.space, fit, settings.coverage, diagnostician.inflation(fit))}
+    sure = intervals_of(diagnostician, fit, settings.coverage, answer)
     settings_found = dict(file.settings)
     for candidate in fit.candidates:
         if candidate.part == BASE:
             # A number of the reducer file that was assumed: from now on as it was measured.
-            settings_found |= {p.name: known_to(fit.fit.values[p.name], numbers[p.name].interval) for p in candidate.parameters}
+            settings_found |= {p.name: known_to(fit.fit.values[p.name], sure[p.name]) for p in candidate.parameters}
             continue
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
-                     "low": float(numbers[p.name].interval[0]), "high": float(numbers[p.name].interval[1])}
+                     "low": float(sure[p.name][0]), "high": float(sure[p.name][1])}
             for p in candidate.parameters
         })  # fmt: skip
     extended = replace(file, effects=effects, settings=settings_found)
@@ -139,6 +142,18 @@ def beginning(file: ModelFile, campaign: Campaign, settings: Settings = Settings
     """One that has done nothing yet."""
     model = PhysicalModel(file, campaign, jobs=jobs)
     return Diagnostician(model, settings, named_orders(model.bench, campaign.orders))
+
+
+def intervals_of(doctor: Diagnostician, fit: Refit, coverage: float, answer: Answer | None) -> dict[str, tuple[float, float]]:
+    """By parameter the interval to rely on, as the diagnosis of the same fit tells it."""
+    numbers = {e.name: e for e in estimates(doctor.space, fit, coverage, doctor.inflation(fit))}
+    names = {c.name for c in fit.candidates}
+    if answer and any({c.name for c in member.candidates} == names for member in answer.diagnosis.fits.members):
+        told = {name: relied_on(entry) for e in answer.diagnosis.effects if e.name in names for name, entry in e.parameters.items()}
+    else:
+        factors = doctor.beside_base(fit)
+        told = {p.name: relied_on({"interval": numbers[p.name].interval} | with_base(numbers[p.name], p, factors)) for p in fit.own}
+    return {name: e.interval for name, e in numbers.items()} | told
 
 
 def known_to(value: float, interval: tuple[float, float]) -> float:
@@ -177,7 +192,7 @@ def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidat
 
 
 def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:
-    """Error over noise before and after, on the held-out runs or on those of ``indices``: the one that a diagnosis gives, too."""
+    """The misfit in the patterns before and after, on the held-out runs or on those of ``indices``: the one that a diagnosis gives, too."""
     return HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders, indices=indices).judge(fit)
 
 
@@ -187,24 +202,22 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
             " measure at a condition that was not used, or mark one as held_out"
         )
-    # Patterns stand out of noise that drowns single samples; then the noise of samples is no measure of them.
+    # Patterns stand out of noise that drowns single samples.
     drowned = bool(judged.rms) and all(row["before"] <= row["floor"] for row in judged.rms.values())
-    measure = (
-        "times what noise leaves in the patterns that matter (single samples are off by less than their noise)" if drowned
-        else "times the noise, in the patterns that carry the misfit and its own"
-    )  # fmt: skip
+    little = "; single samples are off by less than their noise" if drowned else ""
+    samples = f"{samples_text(judged.rms, plain)}; " if judged.rms else ""
+    patterns = patterns_text(judged.before, judged.after)
     if judged.before <= WITHIN_NOISE and judged.after <= WITHIN_NOISE:
         return NOT_PROVEN, (
-            f"the model's error on unused runs was within the noise before ({judged.before:.2f}) and is after ({judged.after:.2f}):"
-            " they do not show this effect; hold out a condition that does"
+            f"{samples}{patterns}: within the noise before and after, the unused runs do not show this effect; hold out a condition that does"
         )
     if judged.after < BETTER * judged.before:
         over = judged.after > WITHIN_NOISE and judged.p_after < BY_CHANCE
-        left = f"; {judged.after:.1f} times what noise leaves there is still left to explain" if over else ""
-        return HELPED, f"error on unused runs fell from {judged.before:.2f} to {judged.after:.2f} {measure}{left}"
+        left = f"; {judged.after:.1f} times what noise leaves in the patterns is still left to explain" if over else ""
+        return HELPED, f"{samples}{patterns}{little}{left}"
     return DID_NOT_HELP, (
-        f"error on unused runs went from {judged.before:.2f} to {judged.after:.2f} {measure} although that on fitted"
-        " runs fell: the effect fits noise or stands for another one; the model stays as it was"
+        f"{samples}{patterns}{little}: on unused runs it did not fall, although on fitted runs it did; the effect fits noise or stands for another one;"
+        " the model stays as it was"
     )
 
 

@@ -1,7 +1,8 @@
 """How an interval is written: with the digits that its width asks for, so that its ends differ."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 # A number as text, with so many significant digits.
 Writer = Callable[[float, int], str]
@@ -16,6 +17,12 @@ NO_WIDTH = 1e-9
 
 def general(value: float, digits: int) -> str:
     return f"{value:.{digits}g}"
+
+
+def relied_on(entry: Mapping[str, Any]) -> tuple[float, float]:
+    """Of an estimate the interval that one may rely on: with the base model's numbers free within their ranges where that is the wider."""
+    low, high = entry.get("interval_with_base", entry["interval"])
+    return low, high
 
 
 def digits_of(low: float, high: float, least: int = 3, write: Writer = general) -> int:

@@ -6,12 +6,13 @@ from typing import Any
 
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.model_file import SignalEntry
+from discrepancy.sample_errors import furthest_off
 from fmu_src.effect_words import effect_words
 
 
 @dataclass(frozen=True)
 class Change:
-    """An error over the noise before and after a step."""
+    """A number over the noise before and after a step."""
 
     before: float
     after: float
@@ -19,7 +20,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Step:
-    """``training`` and ``held_out``: errors in the patterns that carry the misfit; None where they were not judged."""
+    """``training`` and ``held_out``: misfits in the patterns; None where they were not judged."""
 
     campaign: str
     effects: tuple[str, ...]
@@ -43,6 +44,13 @@ class Step:
             if ratio > CONSPICUOUS:
                 found[s.signal] = max(ratio, found.get(s.signal, 0.0))
         return dict(sorted(found.items(), key=lambda entry: -entry[1]))
+
+    @property
+    def samples(self) -> tuple[str, Change, bool] | None:
+        """Of the signal that was furthest off, all samples over the noise, of unused runs where there are such, and whether there are; None of nothing."""
+        rows = [s for s in self.signals if s.held_out] or list(self.signals)
+        found = furthest_off((s.signal, s.before, s.after, s.noise_floor) for s in rows)
+        return None if found is None else (found[0], Change(*found[1:]), rows[0].held_out)
 
     def change(self, kind: str) -> Change | None:
         """Of the ``training`` or the ``held_out`` runs."""

@@ -4,9 +4,10 @@ from collections.abc import Callable
 
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.verdict import INCOMPLETE
+from discrepancy.sample_errors import PATTERNS
 from discrepancy.verdict import Answer
 
-NOT_COUNTED = "; the verdict counts the patterns that carry the misfit, not this"
+NOT_COUNTED = f"; the verdict counts the {PATTERNS}, not this"
 
 
 def left_sizes(answer: Answer, title: Callable[[str], str] = str) -> str:

@@ -291,7 +291,7 @@ def written_step(step: dict[str, Any]) -> Table:
     if item.get("positions"):
         item["positions"].comment("where positions of the input count from: output angle of the model, in rad")
     if item.get("nuisances"):
-        item["nuisances"].comment("calibrated, in SI units: angles in rad")
+        item["nuisances"].comment("calibrated with what this step tried, in SI units (angles in rad); compare calibrates anew, to the same within its +-")
     return item
 
 

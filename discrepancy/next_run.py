@@ -12,6 +12,7 @@ from discrepancy import as_told
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
+from discrepancy.clauses import clauses
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -27,7 +28,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import locked
 from discrepancy.problem import BASE, Record, is_unplaced
 from discrepancy.remembered import diagnosed
-from discrepancy.scales import of_axis, shown, unit_of_axis
+from discrepancy.scales import Scale, of_axis, shown, unit_of_axis
 from discrepancy.unstated_texts import without_place
 from discrepancy.untold import origins_untold, parts_untold, parts_untold_before
 from discrepancy.usual_noise import UNMEASURED
@@ -92,13 +93,20 @@ class Asked:
 
 @dataclass(frozen=True)
 class NextRun:
-    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains."""
+    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains; ``untold``: with what
+    the verdict begins, which no run of these signals tells."""
 
     answer: Answer
     result: NextExperiment | None
     rivals: list[str]
     verdict: str
     asked: list[Asked] = field(default_factory=list)
+    untold: list[str] = field(default_factory=list)
+
+    @property
+    def lines(self) -> list[str]:
+        """The verdict a clause a line: whole it has a hundred words and more."""
+        return clauses(self.verdict)
 
     @property
     def open(self) -> list[str]:
@@ -112,7 +120,7 @@ class NextRun:
             proposal["settings"] = {name: as_told.setting(name, value, campaign) for name, value in proposal["settings"].items()}
             proposal["spans"] = {name: [as_told.setting(name, value, campaign) for value in span] for name, span in proposal["spans"].items()}
         plain["at_stake"] = {name: {"text": text, "si": self.result.at_stake[name]} for name, text in self.stakes().items()} if self.result else {}
-        return plain | {"verdict": self.verdict, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open,
+        return plain | {"verdict": self.verdict, "lines": self.lines, "rivals": self.rivals, "diagnosis": self.answer.verdict, "open": self.open,
                         "asked": [asdict(asked) for asked in self.asked]}  # fmt: skip
 
     @property
@@ -161,7 +169,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
         untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
-        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left)
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
@@ -200,12 +208,17 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
         return said
     best = result.proposals[0]
     if best.least >= ENOUGH:
-        cheapest = f"the cheapest that tells them apart (separation {chi_text(best.least)})"
+        cheapest = f"the cheapest that tells them apart ({apart_text(best)})"
         if is_measured(best, campaign):
-            return f"{said}: the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
-        return f"{said}: whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
-    most = f"most {best.experiment} (separation {best.least:.1f} of {ENOUGH:g})"
-    return f"{said}: no further experiment within the limits would tell these apart by itself, {most}"
+            return f"{said}; the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
+        return f"{said}; whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
+    most = f"most {best.experiment} ({apart_text(best)})"
+    return f"{said}; no further experiment within the limits would tell these apart by itself, {most}"
+
+
+def apart_text(best: Proposal) -> str:
+    """How far two rivals lie apart in an experiment."""
+    return f"they differ there by {chi_text(best.least)} in chi-square, of which {ENOUGH:g} is enough"
 
 
 def is_measured(proposal: Proposal, campaign: Campaign) -> bool:
@@ -388,10 +401,20 @@ def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[
     return ", ".join(texts.values())
 
 
+def position_text(at: float, scale: Scale, unit: str) -> str:
+    """A position of the input [rad] within a turn of it, which is what one sees, and how many whole turns lie before it: after one it is another place of
+    the cranks."""
+    turns, rest = divmod(round(math.degrees(at), 6), 360.0)
+    low = f"{rest:{'.3g' if 0.0 < rest < 10.0 else '.0f'}} deg"
+    if not turns:
+        return low
+    return f"{low} after {turns:.0f} whole turn{'s' * (turns != 1.0)} ({scale.number(at):.0f} {unit})"
+
+
 def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> str:
     scale = of_axis(name, campaign)
     low, high = (f"{scale.number(v):{'.3g' if 0.0 < abs(scale.number(v)) < 10.0 else '.0f'}}" for v in span)
     unit = unit_of_axis(name, campaign)
     if name == LOCKED_AT:
-        return f"input locked at {low} {unit}"
+        return f"input locked at {position_text(span[0], scale, unit)}"
     return f"{low} {unit}".rstrip() if low == high else f"any {name} from {low} to {high} {unit}".rstrip()

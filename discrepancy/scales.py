@@ -8,7 +8,7 @@ from typing import Any
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.intervals import digits_of, estimate_text
+from discrepancy.intervals import digits_of, estimate_text, relied_on
 from discrepancy.problem import is_direction
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable
@@ -129,12 +129,12 @@ def of_variable(variable: Variable, size: float) -> Scale:
 
 def of_estimate(entry: Mapping[str, Any]) -> Scale:
     """Of an estimate as a diagnosis has it, which fits value and interval."""
-    return of_parameter(largest(entry["value"], *entry["interval"]), entry["unit"], entry.get("direction", False))
+    return of_parameter(largest(entry["value"], *relied_on(entry)), entry["unit"], entry.get("direction", False))
 
 
 def estimate_texts(entry: Mapping[str, Any]) -> tuple[str, str, str]:
     """``parameter_texts`` of an estimate as a diagnosis has it."""
-    return parameter_texts(entry["value"], entry["interval"], entry["unit"], entry.get("direction", False))
+    return parameter_texts(entry["value"], relied_on(entry), entry["unit"], entry.get("direction", False))
 
 
 def largest(*values: float) -> float:

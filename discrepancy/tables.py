@@ -13,6 +13,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.compare import Comparison, calibrated_numbers
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
+from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.defined_samples import defined_at
@@ -35,7 +36,7 @@ def tables_of(result: Comparison | Answer | ModelFile) -> list[Table]:
 
 
 def ladder_table(file: ModelFile) -> Table:
-    """The steps of a model: error over noise before and after, on fitted and on unused runs."""
+    """The steps of a model: misfit in the patterns before and after, on fitted and on unused runs."""
     errors = ("training_before", "training_after", "held_out_before", "held_out_after")
     rows = [
         {"step": number, "effects": " + ".join(step["effects"]), "verdict": step.get("verdict", ""), "kept": step.get("kept", True)}
@@ -71,7 +72,7 @@ def answer_tables(result: Answer) -> list[Table]:
     effects = rows_table("effects", [row for effect in result.effects for row in parameter_rows(effect, result)], {})
     named = [effects] if effects.columns else []
     curves = curve_tables(space, predictions, result.model.campaign)
-    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures),
+    return [*named, rows_table("verdict", verdict, {}), rows_table("rivals", rivals, {}), figure_rows(result.figures, result.figures_after),
             *calibrated_rows(result.model, space), *curves]  # fmt: skip
 
 
@@ -90,7 +91,7 @@ def parameter_rows(effect: Mapping[str, Any], answer: Answer) -> list[dict[str, 
     """A row a parameter, with the 95 % interval."""
     rows = []
     for name, p in effect["parameters"].items():
-        low, high = p["interval"]
+        low, high = relied_on(p)
         told = told_name(name, tables_in(answer.model))
         scale = of_estimate(p)
         rows.append({
@@ -106,14 +107,15 @@ def in_bench_units(row: Mapping[str, Any]) -> dict[str, Any]:
     return dict(row) | {key: scale.number(row[key]) for key in SCALED} | {"unit": scale.unit}
 
 
-def figure_rows(figures: Sequence[KeyFigure]) -> Table:
+def figure_rows(figures: Sequence[KeyFigure], after: Sequence[KeyFigure] = ()) -> Table:
+    """``after``: the same with what a diagnosis names, if it names anything, in columns of their own."""
     rows = []
-    for f in figures:
+    for k, f in enumerate(figures):
         scale = of_signal(f.told_as, f.unit)
         rows.append({
             "signal": f.signal, "condition": f.condition, "figure": f.name, "measured": scale.number(f.measured), "model": scale.number(f.model),
             "noise": scale.factor * f.noise, "unit": scale.unit, "off_in_noise": f.off, "runs": f.runs,
-        })  # fmt: skip
+        } | ({"with_effect": scale.number(after[k].model), "off_in_noise_with_effect": after[k].off} if after else {}))  # fmt: skip
     return rows_table("key_figures", rows, {})
 
 

@@ -19,7 +19,7 @@ SAME_WITH_EACH = (
 def parts_untold(effects: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
     several = (effect for effect in effects if effect.get("other_places"))
-    return [f"at which part it is ({effect_words(effect['name'])} at {effect['place']}) {SAME_WITH_EACH}" for effect in several]
+    return [f"at which part it is ({effect_words(effect['name'])} at {effect['place']}) stays open; {SAME_WITH_EACH}" for effect in several]
 
 
 def parts_untold_before(file: ModelFile) -> list[str]:

@@ -21,7 +21,7 @@ from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.profile import Profile
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, UNKNOWN, Diagnosis, Settings
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, Diagnosis, Settings
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.locked_zeros import zero_texts, zeros_told
 from discrepancy.model_file import ModelFile
@@ -45,7 +45,8 @@ class Answer:
     """A diagnosis with its effects by name; ``laws`` are what was recovered where no name fits, ``doctor`` can go on from here,
     ``made`` is when it was made [s since 1970], ``made_in`` the campaign's folder: one that is kept is found again later;
     ``profiles`` of fits by their name, once a page has drawn them;
-    ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them."""
+    ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them;
+    ``figures`` are of the base model, ``figures_after`` the same with what fits best in it, empty where nothing was fitted."""
 
     model: PhysicalModel
     diagnosis: Diagnosis
@@ -62,6 +63,12 @@ class Answer:
     untold: list[str] = field(default_factory=list)
     zeros: dict[str, float] = field(default_factory=dict)
     profiles: dict[str, list[Profile]] = field(default_factory=dict, repr=False, compare=False)
+    figures_after: list[KeyFigure] = field(default_factory=list)
+
+    @property
+    def added(self) -> str:
+        """What ``figures_after`` have in the model; of alternatives the first."""
+        return self.diagnosis.fits.members[0].name if self.diagnosis.fits.members else ""
 
     @property
     def left_over(self) -> str:
@@ -81,7 +88,7 @@ class Answer:
             "model": self.model.file.name, "campaign": self.model.campaign.name, "verdict": self.verdict, "reason": self.reason,
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings, "untold": self.untold,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
-            "key_figures": [f.as_json() for f in self.figures],
+            "key_figures": [f.as_json() for f in self.figures], "key_figures_after": [f.as_json() for f in self.figures_after],
         }  # fmt: skip
 
     def as_json(self) -> dict[str, Any]:
@@ -101,6 +108,7 @@ class Answer:
                         for e in self.effects],
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
             "nuisances": as_told.numbers(nuisances, units, tables), "key_figures": as_told.figures(self.figures),
+            "key_figures_after": as_told.figures(self.figures_after),
             "noise": as_told.noises(self.diagnosis.noise, {s: signals[s] for s in self.diagnosis.noise if s in signals}),
         }  # fmt: skip
 
@@ -183,7 +191,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
     warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
-    return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros)
+    # Who interrupts waits for nothing more.
+    after = figures_of(doctor, model, fit.values) if best and figures and verdict != STOPPED else []
+    return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros, figures_after=after)
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

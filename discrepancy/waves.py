@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from discrepancy.as_told import told_name
+from discrepancy.intervals import relied_on
 from discrepancy.scales import largest, of_parameter
 from fmu_src.table import Table
 
@@ -46,7 +47,7 @@ def waves_of(parameters: Mapping[str, Mapping[str, Any]]) -> list[Wave]:
         if size == 0.0:
             continue
         # Along the wave's own direction.
-        halves = [0.5 * (one["interval"][1] - one["interval"][0]) for one in (cosine, sine)]
+        halves = [0.5 * (high - low) for low, high in map(relied_on, (cosine, sine))]
         half = math.hypot(*(part * half for part, half in zip(parts, halves))) / size
         phase = math.degrees(math.atan2(parts[1], parts[0])) % 360.0
         found.append(Wave(name, other, size, (max(0.0, size - half), size + half), str(cosine["unit"]), phase))

@@ -6,12 +6,14 @@ from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.campaign.amount import readable
+from discrepancy.compare import by_signal, runs_of
 from discrepancy.extend import BETTER
 from discrepancy.held_signals import held_signals_text
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.intervals import interval_text
 from discrepancy.other_places import place_of, shortened
+from discrepancy.sample_errors import FITTED, OF_SAMPLES, patterns_text, plain, samples_text
 from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 
@@ -144,6 +146,18 @@ def by_unused_runs(answer: Answer, effect: dict[str, Any]) -> bool:
     return bool(answer.diagnosis.fits.space.held_out) and bool(entry) and not entry.get("kind")
 
 
+def fitted_samples(answer: Answer) -> dict[str, dict[str, float]]:
+    """Of each signal the error of all samples of its fitted runs before and with what is named, and the noise, in its unit; empty where nothing was fitted."""
+    fits = answer.diagnosis.fits
+    if not fits.members:
+        return {}
+    every = list(range(len(fits.space.records)))
+    before, after = (by_signal(runs_of(fits.space, fits.space.predictions(fit.values, every))) for fit in (fits.space.base, fits.members[0].fit))
+    return {
+        a["signal"]: {"before": b["error"], "after": a["error"], "floor": a["noise_floor"]} for b, a in zip(before, after, strict=True) if not a["held_out"]
+    }
+
+
 def below_noise(answer: Answer, effect: dict[str, Any]) -> bool:
     """Whether the unused runs were off by less than the noise of their samples before anything was added."""
     signals = judged(answer, effect).get("rms") or {}
@@ -151,12 +165,12 @@ def below_noise(answer: Answer, effect: dict[str, Any]) -> bool:
 
 
 def with_base_text(entry: Mapping[str, Any]) -> str:
-    """What an interval takes for known, where that is less sure than the interval is narrow; empty elsewhere."""
+    """What the interval that is told leaves open, and which it would be otherwise; empty where both are one."""
     if "interval_with_base" not in entry:
         return ""
     scale = of_estimate(entry)
-    low, high = (scale.number(v) for v in entry["interval_with_base"])
-    return f"with the base model's numbers as its file has them; {interval_text(low, high, 3, readable)} with each free within its range"
+    low, high = (scale.number(v) for v in entry["interval"])
+    return f"with each of the base model's numbers free within its range; {interval_text(low, high, 3, readable)} with them as its file has them"
 
 
 def is_shown(answer: Answer, effect: dict[str, Any]) -> bool:
@@ -179,19 +193,22 @@ def error_text(answer: Answer, effect: dict[str, Any]) -> str:
         return ""
     change = f"{before:.2f} -> {after:.2f}"
     if not by_unused_runs(answer, effect):
-        return f"{not_judged_text(answer)}; leaving out one condition at a time: error {change} times the noise"
+        fitted = fitted_samples(answer)
+        before_that = f"{samples_text(fitted, plain, FITTED)}; " if fitted else ""
+        return f"{before_that}{not_judged_text(answer)}; leaving out one condition at a time: misfit of a condition {change} ({OF_SAMPLES})"
     records = answer.diagnosis.fits.space.records
     of_signals = held_signals_text(records)
     if not below_noise(answer, effect):
-        return f"error on unused conditions {change} times the noise, in the patterns that carry the misfit (what the verdict counts){of_signals}"
+        unused = judged(answer, effect).get("rms") or {}
+        return "; ".join([*([samples_text(unused, plain)] if unused else []), patterns_text(before, after)]) + of_signals
     units = {r.quantity: r.unit for r in records}
     rows = [
         f"{name}: {shown(row['before'], units[name.partition('[')[0]], name)}, noise {shown(row['floor'], units[name.partition('[')[0]], name)}"
         for name, row in judged(answer, effect)["rms"].items()
     ]
     return (
-        f"on unused conditions the samples are off by less than their noise ({'; '.join(rows)}), so that these runs prove little; in the"
-        f" patterns that carry the misfit (what the verdict counts) {change}, with 1 for what noise leaves there{of_signals}"
+        f"on unused conditions the samples are off by less than their noise ({'; '.join(rows)}), so that these runs prove little;"
+        f" {patterns_text(before, after)}{of_signals}"
     )
 
 

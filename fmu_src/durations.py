@@ -45,7 +45,10 @@ class Durations:
     def begin(self, task: Task) -> None:
         """Tells the task how long it took before, unless it knows it itself."""
         if task.about is None:
-            before = next((self.known[key] for key in self.keys(task) if key in self.known), None)
+            own, alike = self.keys(task)
+            before = self.known.get(own, self.known.get(alike))
+            # Another model or campaign may take another time.
+            task.like = "" if before is None or own in self.known else f"the last {self.kind}"
             task.before = before if before is None or not task.total else before * task.total
 
     def end(self, task: Task) -> None:

@@ -29,6 +29,8 @@ class Task:
     done: int = 0
     # Seconds that it took the last time, if somebody remembers.
     before: float | None = None
+    # What took so long, where that was another command than this one.
+    like: str = ""
     begun: float = field(default_factory=time.monotonic)
     # Whether something ended it before its time.
     broken: bool = False
@@ -84,7 +86,8 @@ class Task:
             return f"{self.what}{count}, {self.span} left"
         if self.left is None:
             return f"{self.what}{count}" + (f", for {duration(self.passed)} now" if self.passed > SOON else "")
-        return f"{self.what}{count}, about {duration(self.left)} left"
+        guessed = f" if it takes as long as {self.like}" if self.like and not self.done and self.about is None else ""
+        return f"{self.what}{count}, about {duration(self.left)} left{guessed}"
 
 
 def duration(seconds: float) -> str:

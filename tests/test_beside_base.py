@@ -1,12 +1,14 @@
 """Intervals take the base model's numbers as they stand; where these are less sure, the answer says what they would be with them free."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from test_inference_toy import CANDIDATES, Toy, campaign
 
 from discrepancy import as_told
+from discrepancy.extend import intervals_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.beside_base import WIDER, widened
 from discrepancy.problem import BASE, Candidate
@@ -42,10 +44,22 @@ def test_the_answer_says_so_in_its_units_where_it_matters():
     low, high = entry["interval_with_base"]
     assert low <= entry["interval"][0] < entry["interval"][1] <= high
     text = with_base_text(entry)
-    assert text.startswith("with the base model's numbers as its file has them; ") and text.endswith("with each free within its range")
-    told = as_told.parameter(entry)
-    assert told["interval_with_base"][1] == pytest.approx(told["si"]["interval_with_base"][1] * told["value"] / told["si"]["value"])
+    assert text.startswith("with each of the base model's numbers free within its range; ") and text.endswith("with them as its file has them")
+    # The wider one is told first, wherever: the narrow one was taken for what one may rely on.
+    told, narrow = as_told.parameter(entry), "interval_with_base_as_it_is"
+    assert told["interval"][1] == pytest.approx(high * told["value"] / entry["value"]) and told["si"]["interval"] == [low, high]
+    assert told[narrow][1] == pytest.approx(told["si"][narrow][1] * told["value"] / told["si"]["value"]) and told["si"][narrow] == entry["interval"]
     assert with_base_text({key: value for key, value in entry.items() if key != "interval_with_base"}) == ""
+
+
+def test_what_extend_writes_is_the_interval_that_the_answer_tells_first():
+    doctor = Diagnostician(with_a_base_number())
+    found = doctor.run()
+    (entry,) = (e.parameters["housing"] for e in found.effects if e.name == "housing_compliance")
+    fit = doctor.final(["housing_compliance"])
+    # From a diagnosis, and without one.
+    for answer in (SimpleNamespace(diagnosis=found), None):
+        assert intervals_of(doctor, fit, doctor.settings.coverage, answer)["housing"] == pytest.approx(entry["interval_with_base"])
 
 
 def test_where_the_base_has_no_such_number_nothing_is_said():

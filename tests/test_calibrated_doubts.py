@@ -107,6 +107,9 @@ def test_what_ended_at_nothing_is_told_as_nothing():
 
     model = SimpleNamespace(nuisances=(Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3), Parameter("angle", "rad", 0.0, -1.0, 1.0, 1e-5)))
     assert calibrated_texts(model, {"lag_share": 3.02585e-10, "angle": 2e-12}) == ["lag_share = 0", "angle = 4.125e-07 arcsec"]
+    # With what noise leaves: 1.060 and 1.034 of one model and one campaign stood there as if they were two numbers.
+    base = fit_of([Parameter("lag_share", "1", 0.0, 0.0, 2.0, 1.0, 0)], {"lag_share": 1.03}, np.zeros(2), np.full((2, 1), 20.0))
+    assert calibrated_texts(model, {"lag_share": 1.03, "angle": 2e-6}, base) == ["lag_share = 1.03 +- 0.035", "angle = 0.4125 arcsec"]
     assert calibrated_texts(model, {"lag_share": 0.02, "angle": 1e-13}) == ["lag_share = 0.02", "angle = 0 arcsec"]
 
 

@@ -300,3 +300,19 @@ def test_sample_far_off_is_named_with_run_file_place_and_size(tmp_path):
     assert found.text.startswith("run r1 (r1.csv, column e [arcsec]): 1 of 600 samples stands ") and "times the noise off its neighbours" in found.text
     # At the angle as the file counts it, which is the input's.
     assert found.text.endswith(" arcsec at 1500 deg (sample 251)") and "left out of fit, errors, key figures and axes of charts" in found.remedy
+
+
+@pytest.mark.parametrize(("reach", "told"), [(1.0, None), (0.6, "there are 5")])
+def test_torques_that_the_loops_have_are_not_asked_for(tmp_path, reach, told):
+    """Loops to all of the rated torque were asked for torques to all of it: of levels near each other the lowest stood for the end."""
+    torque = reach * 167.0 * np.concatenate([[1.0, 0.985, 0.5, 0.3, 0.2, 0.05], -np.array([0.05, 0.5, 1.0])])
+    np.savetxt(tmp_path / "loop.csv", np.column_stack([torque, torque]), delimiter=",", header="t,y", comments="")
+    run = ('condition = "a"\nquantity = "hysteresis"\ntags.locked = "input"\nfile = "loop.csv"\ncolumns.torque = { column = "t", unit = "N.m" }\n'
+           'columns.value = { column = "y", unit = "arcsec" }')  # fmt: skip
+    check = campaign(tmp_path, {"a": 'direction = "forward"\n'}, [run])
+    found = next(verdict for verdict in check.pairs if verdict.pair.number == 7)
+    if told is None:
+        assert found.status == "separable"
+    else:
+        # What there is stands beside what is asked for.
+        assert found.status == "not separable" and told in found.missing[0] and "60 % of the rated" in found.missing[0]

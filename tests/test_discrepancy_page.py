@@ -364,7 +364,7 @@ def test_next_experiment(answer, tmp_path):
     nothing = written(NextRun(answer, None, ["clearance"], "nothing is left to separate: clearance stands alone"), tmp_path)
     assert "clearance stands alone" in nothing and not figures_of(nothing)
     off = "no effect is missing: the base model is off (mesh.stiffness); correct it"
-    assert off.capitalize() in written(NextRun(answer, None, [], off), tmp_path)
+    assert "No effect is missing: the base model is off (mesh.stiffness). Correct it." in written(NextRun(answer, None, [], off), tmp_path)
     none = NextExperiment(False, "cannot be separated on this rig", proposals[1:], {})
     assert "None of 1 possible experiments" in written(NextRun(answer, none, ["a", "b"], none.verdict), tmp_path)
 
@@ -446,7 +446,7 @@ def test_several_effects_have_two_shares_and_one_error(tmp_path, capsys):
     show_answer(found)
     told = " ".join(capsys.readouterr().out.split())
     assert "runout alone it takes away 93 % of the misfit; added to the others, < 1 % more of it" in told
-    assert told.count("error on unused conditions") == 1 and "together this explains" in told
+    assert told.count("misfit in the patterns") == 1 and "together this explains" in told
     assert "in place of clearance, beside the others, could stand: tilt" in told and "tilt: " not in told.partition("closest rivals")[2]
     page = written(found, tmp_path)
     bars = figure(page, "shares")["data"]

@@ -443,7 +443,7 @@ def after(r):
 
 def test_bounds_of_a_direction_are_told_alike_by_the_check_and_the_list():
     turn = shape("side", "rad", "where", 0.5, -3.15, 3.15, "assumed")
-    assert use_of(turn).startswith("shape, fitted to any direction, from ") and range_of(turn) == ("deg", "28.65", "any")
+    assert use_of(turn).startswith("shape, fitted to any direction, first tried at ") and range_of(turn) == ("deg", "28.65", "any")
     # Neither a direction in a quarter nor the width of a pit may be any.
     part = shape("width", "rad", "how wide", 0.1, 0.005, 2.0, "assumed", held=True)
     assert range_of(part)[2] == "0.2865 to 114.6" and "any" not in use_of(shape("part", "rad", "where", 0.7, 0.0, 1.571, "assumed"))
@@ -457,8 +457,8 @@ def test_check_says_of_every_parameter_its_units_and_what_a_diagnosis_does_with_
         "  lip_torque: in N.m, here and in answers; amplitude, fitted within 0 to 5 N.m",
         # A third of the start lies below the bounds.
         "  lip_speed: in rad/s here, for kernels, in rpm in answers at its usual size (1 rad/s is 9.5493 rpm);"
-        " shape, fitted within 12 to 300 rad/s, from 30, 90",
+        " shape, fitted within 12 to 300 rad/s, first tried at 30, 90",
         "  lip_power: a number without a unit; shape, held at 1, not fitted: held=True",
         "  lip_onset: in K here, for kernels, in degC in answers at its usual size (0 degC is 273.15 K);"
-        " shape, fitted within 273.15 to 353.15 K, from 303.15",
+        " shape, fitted within 273.15 to 353.15 K, first tried at 303.15",
     ]

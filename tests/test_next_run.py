@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cli.screen import console
-from cli.show.comparison import show_asked
+from cli.show.comparison import show_asked, show_next
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
@@ -164,6 +164,23 @@ def test_what_one_effect_may_come_from_is_said():
     assert proposal_for(answer, campaign).verdict.startswith(asked)
 
 
+def test_what_next_says_is_parted_in_short_lines(capsys):
+    """It was one sentence of a hundred words; brackets stay whole."""
+    run = NextRun(SimpleNamespace(), None, [], "at which part it is (lobe at crank 1; crank 2 if turned) stays open; measure these parts; nothing is left to separate")
+    assert run.lines == ["at which part it is (lobe at crank 1; crank 2 if turned) stays open", "measure these parts", "nothing is left to separate"]
+    show_next(run)
+    assert capsys.readouterr().out.splitlines() == run.lines
+
+
+def test_a_position_is_said_within_a_turn():
+    """"input locked at 558 deg": nobody sees more than a turn; which of them it is matters, for the cranks take three."""
+    says = {at: describe({"locked_at": np.radians(at)}, CAMPAIGN) for at in (0.0, 90.0, 360.0, 558.4, 837.0)}
+    assert list(says.values()) == [
+        "input locked at 0 deg", "input locked at 90 deg", "input locked at 0 deg after 1 whole turn (360 deg)",
+        "input locked at 198 deg after 1 whole turn (558 deg)", "input locked at 117 deg after 2 whole turns (837 deg)",
+    ]  # fmt: skip
+
+
 def test_nothing_is_left_after_one_effect_or_none():
     assert proposal_for(answer_of(ONE, ["thermal_expansion"]), CAMPAIGN).verdict == "nothing is left to separate: thermal expansion stands alone"
     # What came nearest to nothing is no suspect.
@@ -178,7 +195,8 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     four = "crank 1 at disc 1 or crank 2 at disc 2, which look alike"
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": four, "other_places": ["crank 2 at disc 2"]}]
     said = proposal_for(answer, CAMPAIGN).verdict
-    assert f"at which part it is (crank eccentric errors at {four}) no other run of these signals tells, for they are the same with each" in said
+    assert f"at which part it is (crank eccentric errors at {four}) stays open; no other run of these signals tells, for they are the same with each" in said
+    assert proposal_for(answer, CAMPAIGN).untold == parts_untold(answer.effects)
     assert "exchange one of them for that of another unit" in said
     # Once it stands in the model file it is as open as before.
     kept = {"untold": parts_untold(answer.effects), "kept": True}

@@ -153,6 +153,12 @@ def test_what_nobody_can_count_is_told_from_the_last_time(tmp_path, monkeypatch)
     assert task.sentence() == "comparing, about 15 s left"
     task.begun -= 30.0
     assert task.sentence() == "comparing, for 35 s now"
+    # Another command's time, which may be that of another model, is told as such.
+    task = Task("comparing")
+    Durations(["compare", "d"]).begin(task)
+    assert task.sentence() == "comparing, about 40 s left if it takes as long as the last compare"
+    Durations(["compare", "a"]).begin(task)
+    assert "last" not in task.sentence()
     # What was interrupted says nothing of how long it takes.
     run(["compare", "a"], "comparing", 5.0, broken=True)
     assert run(["compare", "a"], "comparing", 1.0) == 20.0

@@ -1,6 +1,7 @@
 """What the screen shows: texts of the user as they stand, units of the field, no praise that no unused run bears."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -10,6 +11,8 @@ import pytest
 from cli.bars import Bars
 from cli.screen import console, figures, styled
 from cli.show import comparison as shows
+from discrepancy.extend import verdict_of
+from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
@@ -103,7 +106,7 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
                                 alternatives={}, rejected=[], base_off=[], nuisances={})
     effect = {"name": "play", "variant": "", "candidates": ["play"], "forms": {}, "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
-    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[],
+    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="",
                            model=SimpleNamespace(file=load_model("RV20E-121")))
 
 
@@ -127,8 +130,8 @@ def test_what_is_left_is_sized_signal_by_signal(capsys):
         record.tags, record.condition, record.replicate = {}, "c", 1
     shows.show_answer(answer)
     shown = " ".join(capsys.readouterr().out.split())
-    assert "every sample is off by hysteresis: 1.1 times its noise (unused runs: 2); the verdict counts the patterns that carry the misfit, not this" in shown
-    assert "error on unused conditions 28.00 -> 1.20 times the noise, in the patterns that carry the misfit (what the verdict counts)" in shown
+    assert "error over noise, all samples, with what is named: hysteresis: 1.1 times its noise (unused runs: 2); the verdict counts the misfit in the patterns, not this" in shown
+    assert "misfit in the patterns 28.00 -> 1.20 (what the verdict counts; 1: what noise leaves there)" in shown
     assert left_sizes(answer_of(ONE, True)) == ""
 
 
@@ -182,6 +185,33 @@ def test_error_below_the_noise_is_not_many_times_the_noise(capsys):
     assert "0.0006875 arcmin/(N.m)" in capsys.readouterr().out
 
 
+def test_every_view_begins_with_the_number_of_the_comparison_by_its_name(capsys):
+    """15.65 -> 1.00 stood in a comparison, 419 -> 1.33 in the diagnosis of the same, both as error over noise."""
+    rms = {"transmission_error": {"before": 47e-6, "after": 3e-6, "floor": 3e-6}}
+    answer = answer_of(ONE, True, rms)
+    assert error_text(answer, answer.effects[0]) == (
+        "error over noise, all samples, on unused runs: transmission error 15.67 -> 1.00;"
+        " misfit in the patterns 28.00 -> 1.20 (what the verdict counts; 1: what noise leaves there)"
+    )
+    _, reason = verdict_of(HeldOut(419.0, 1.2, 0.5, rms, "held-out runs"))
+    assert reason.startswith("error over noise, all samples, on unused runs: transmission error 15.67 -> 1.00; misfit in the patterns 419.00 -> 1.20 (")
+    rows = [{"signal": "transmission_error", "held_out": held, "unit": "rad", "before": 47e-6, "after": 3e-6, "noise_floor": 3e-6} for held in (False, True)]
+    step = {"campaign": "c", "effects": ["play"], "signals": rows, "held_out_before": 419.0, "held_out_after": 1.2}
+    shows.show_ladder(replace(load_model("RV20E-121"), steps=(step,)))
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "15.67 -> 1.00" in shown and "error over noise, all samples: of the signal that was furthest off, of unused runs where there are, 1: noise alone" in shown
+
+
+@pytest.mark.parametrize(("verdict", "head"), [(NONE, "what came nearest, none of it significant"), (ONE, "closest rivals")])
+def test_of_nothing_there_are_no_rivals(capsys, verdict, head):
+    answer = answer_of(verdict, True)
+    answer.diagnosis.rejected = [{"name": "drag", "chi2_difference": None, "reason": "score test: p = 1"}]
+    answer.model.bench = SimpleNamespace(tables=())
+    answer.effects = []
+    shows.show_answer(answer)
+    assert f"\n{head}\n  drag: " in capsys.readouterr().out
+
+
 def test_only_what_unused_runs_show_is_good():
     rms = {"hysteresis": {"before": 80e-3, "after": 3e-3, "floor": 3e-3}}
     assert tone(answer_of(ONE, True, rms)) == "good"
@@ -194,7 +224,7 @@ def test_only_what_unused_runs_show_is_good():
 def test_a_stopped_diagnosis_does_not_deny_that_runs_are_held_out():
     stopped = answer_of(STOPPED, True, kind="leave one condition out")
     assert error_text(stopped, stopped.effects[0]) == (
-        "the runs that are held out are not judged yet; leaving out one condition at a time: error 28.00 -> 1.20 times the noise"
+        "the runs that are held out are not judged yet; leaving out one condition at a time: misfit of a condition 28.00 -> 1.20 (1: noise alone)"
     )
     assert tone(answer_of(NONE, True)) == "good" and tone(answer_of(NONE, False)) == "plain"
 

@@ -19,7 +19,9 @@ from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import load_model
+from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.comparison import figures_section
+from discrepancy.tables import figure_rows
 from studies.standard.evaluation import Figure
 
 LOCKED = "入力軸固定0deg"
@@ -118,3 +120,19 @@ def test_overview_of_a_campaign_has_whole_heads_and_says_once_what_is_alike(caps
     fewer = capsys.readouterr().out
     assert "one temperature, one direction, one mounting at most; no hours stated" in fewer
     assert "loads  speeds" in fewer and "direc-" not in fewer and "hours " not in fewer.replace("no hours stated", "")
+
+
+def test_key_figures_of_a_diagnosis_are_those_with_what_it_names_too(capsys):
+    """A loop of 0.323 arcmin stood beside 0.271 of the base model, and nowhere what the named effect makes of it."""
+    before = [KeyFigure("hysteresis[locked=input]", LOCKED, name, "rad", 9.4e-5, 7.9e-5, 3e-7, 2, True) for name in ("lost motion", "mean width of the loop")]
+    after = [replace(f, model=9.41e-5) for f in before]
+    show_figures(before, console(WIDTH), load_model("RV20E-121"), True, after, "play")
+    told = capsys.readouterr().out
+    assert "and with play in it" in " ".join(told.split()) and told.count("50.0 -> 0.3") == 2 and widest(told.splitlines()) <= WIDTH
+    answer = SimpleNamespace(figures=before, figures_after=after, added="play", model=SimpleNamespace(file=load_model("RV20E-121")),
+                             diagnosis=SimpleNamespace(nuisances={"zero": 1.0}))  # fmt: skip
+    [section] = figures_of_answer(answer)
+    assert "with the effect" in section.tables[0].head and section.tables[0].rows[0][-2:] == ["0.323 arcmin", "50.0 → 0.333"]
+    columns = {column.name: column.values for column in figure_rows(before, after).columns}
+    assert columns["off_in_noise_with_effect"][0] == pytest.approx(-1.0 / 3.0)
+    assert "with_effect" not in {column.name for column in figure_rows(before).columns}

@@ -123,7 +123,8 @@ def use_of(p: "EffectParameter") -> str:
         return f"chosen by you, not fitted: {', '.join(v.choices) or f'{v.minimum:g} to {v.maximum:g}'}"
     if p.is_held:
         return f"shape, held at {float(v.start):g}{unit}, not fitted: held=True"
-    grid = f", from {', '.join(f'{value:g}' for value in p.grid)}" if p.kind == "shape" else ""
+    # A fit goes on from there: these are no values that it is held to.
+    grid = f", first tried at {', '.join(f'{value:g}' for value in p.grid)}" if p.kind == "shape" else ""
     bounds = "to any direction" if goes_all_round(p) else f"within {v.minimum:g} to {v.maximum:g}{unit}"
     return f"{p.kind}, fitted {bounds}{grid}"
 

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 
 
 def line_after(options: argparse.Namespace, answer: "Answer") -> str:
-    """The command with which one goes on from a diagnosis; empty where nothing is missing, or nothing that a command could add."""
+    """The command with which one goes on from a diagnosis; empty where there is nothing that a command could add."""
     from discrepancy.compare import another_reducer
     from discrepancy.held_names import LOCKED_AT
     from discrepancy.hidden_by_position import POSITION
     from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
-    if answer.verdict == NONE or (answer.verdict == BASE_OFF and not numbers_of(answer)):
+    if answer.verdict == NONE:
+        return f"{shlex.join(['rvwear', 'build', '--reducer', options.model, '--output', 'units'])}    # nothing is missing here: the FMUs of this model"
+    if answer.verdict == BASE_OFF and not numbers_of(answer):
         return ""
     data = ["--data", options.data] if options.data else []
     if named := another_reducer(answer.model):
@@ -43,6 +45,15 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     if command == "extend" and any(effect["name"] == POSITION for effect in answer.effects):
         what += f"; a position belongs to the bench: state {LOCKED_AT} in the campaign's condition instead where it is known"
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
+
+
+def look_line(answer: "Answer") -> str:
+    """The command that shows what a named effect does on the reducer at hand; empty where no effect of the catalogue is named.  Without a reducer it shows an
+    ideal one, on which much is many times larger or smaller."""
+    if not answer.effects:
+        return ""
+    words = ["rvwear", "effects", answer.effects[0]["name"], "--reducer", answer.model.file.reducer.as_named]
+    return f"{shlex.join(words)}    # what it does to each figure of this reducer"
 
 
 def lines_after_extending(options: argparse.Namespace, model: str) -> str:

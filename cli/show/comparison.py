@@ -14,12 +14,14 @@ from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
+from discrepancy.inference.verdict import NONE
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
 from discrepancy.prediction.orders import apart_from_remark
+from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -61,7 +63,7 @@ def ratio_colour(ratio: float, held_out: bool) -> str:
 
 def show_comparison(comparison: Comparison) -> None:
     out = console(WIDTH)
-    table = Table(title=f"{comparison.model.file.heading} against {comparison.model.campaign.name}", title_justify="left")
+    table = Table(title=f"{comparison.model.file.heading} against {comparison.model.campaign.name}: {SAMPLES} ({OF_SAMPLES})", title_justify="left")
     for name in ("signal", "runs", "", "error", "noise", "error/noise"):
         table.add_column(name, justify="left" if name in ("signal", "") else "right")
     for row in comparison.signals:
@@ -71,23 +73,28 @@ def show_comparison(comparison: Comparison) -> None:
     out.print(table)
     if comparison.nuisances:
         out.print("calibrated to this campaign before anything was compared:")
-        for text in calibrated_texts(comparison.model, comparison.nuisances):
+        for text in calibrated_texts(comparison.model, comparison.nuisances, comparison.diagnostician.space.base):
             out.print(f"  {text}")
     show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool) -> None:
-    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest."""
+def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "") -> None:
+    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest.
+
+    ``after``: the same with what was ``added`` to the model, if anything was.
+    """
     worst = furthest(figures)
     if not worst:
         return
-    table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else ""))
-    heads = ("figure", "condition", "measured", "noise", "model", "", "off/noise")
-    numbers = ("measured", "noise", "model", "off/noise")
-    rows = figure_rows(worst[:LONGEST])
-    fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=numbers)
+    table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else "")
+                  + (f", and with {added} in it" if after else ""))  # fmt: skip
+    more = {id(f): changed for f, changed in zip(figures, after)}
+    heads = ("figure", "condition", "measured", "noise", "model", *["with it"] * bool(after), "", "off/noise")
+    numbers = ("measured", "noise", "model", "with it", "off/noise")
+    rows = figure_rows(worst[:LONGEST], more)
+    fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=[name for name in heads if name in numbers])
     out.print(table)
     for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in worst[:LONGEST]))):
         out.print(remark)
@@ -95,22 +102,27 @@ def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibr
         out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
 
 
-def figure_rows(figures: Sequence[KeyFigure]) -> list[tuple[str, ...]]:
-    """Cells of key figures in groups, their signal in a line above each: in a column of its own it would take the room that names need."""
+def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) -> list[tuple[str, ...]]:
+    """Cells of key figures in groups, their signal in a line above each: in a column of its own it would take the room that names need.
+
+    ``after``: by their identity what they are with an effect, of all or of none.
+    """
+    width = 8 if after else 7
     groups: dict[str, list[KeyFigure]] = {}
     for f in figures:
         groups.setdefault(f.signal, []).append(f)
     rows: list[tuple[str, ...]] = []
     for signal, members in groups.items():
-        rows += [("",) * 7] * bool(rows) + [(f"{signal}:", *[""] * 6), *map(figure_row, members)]
+        rows += [("",) * width] * bool(rows) + [(f"{signal}:", *[""] * (width - 1)), *(figure_row(f, after.get(id(f))) for f in members)]
     return rows
 
 
-def figure_row(f: KeyFigure) -> tuple[str, ...]:
-    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, f.model))
-    noise, model = (number if own == unit else f"{number} {own}" for number, _, own in others)
-    off = f"{abs(f.off):.{0 if abs(f.off) >= WHOLE else 1}f}"
-    return apart_from_remark(f.name)[0], f.condition, measured, noise, model, unit, off
+def figure_row(f: KeyFigure, after: KeyFigure | None) -> tuple[str, ...]:
+    both = [f, *([after] if after else [])]
+    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, *(one.model for one in both)))
+    noise, *models = (number if own == unit else f"{number} {own}" for number, _, own in others)
+    off = " -> ".join(f"{abs(one.off):.{0 if abs(one.off) >= WHOLE else 1}f}" for one in both)
+    return apart_from_remark(f.name)[0], f.condition, measured, noise, *models, unit, off
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
@@ -159,7 +171,7 @@ def show_answer(answer: Answer) -> None:
     if left:
         out.print(f"\nnot explained: {left}")
     if sizes := left_sizes(answer):
-        out.print(f"every sample is off by  {sizes}")
+        out.print(f"{SAMPLES}, with what is named: {sizes}")
     if answer.confusable:
         out.print(f"\nthis campaign cannot tell apart: {', '.join(told_apart_by(answer))}; `rvwear next` proposes what would")
     for text in stand_ins(answer).values():
@@ -167,10 +179,11 @@ def show_answer(answer: Answer) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, answer.warnings)
-    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances))
+    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
     rejected = turned_down(answer)[:6]
     if rejected:
-        out.print("\nclosest rivals")
+        # Of nothing there are no rivals.
+        out.print("\nwhat came nearest, none of it significant" if answer.verdict == NONE else "\nclosest rivals")
         for rival in rejected:
             out.print(f"  {rival['name']}: {rival['reason']}")
 
@@ -200,7 +213,8 @@ def show_extension(extension: Extension) -> None:
     for row in step["signals"]:
         where = "held out" if row["held_out"] else "fitted"
         before, after, noise = (shown(row[k], row["unit"], row["signal"]) for k in ("before", "after", "noise_floor"))
-        out.print(f"  {row['signal']} ({where}): {before} -> {after}, noise {noise}")
+        ratios = " -> ".join(f"{ratio(row[k], row['noise_floor']):.2f}" for k in ("before", "after"))
+        out.print(f"  {row['signal']} ({where}): {SAMPLES} {ratios} ({before} -> {after}, noise {noise})")
     for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
         if held := held_text(name, extension.file):
             out.print(f"  {name}: {held}")
@@ -212,17 +226,20 @@ def show_ladder(file: ModelFile) -> None:
     if not file.steps:
         out.print(f"{file.heading} has no steps yet: rvwear extend adds them")
         return
-    table = Table(title=f"{file.heading}: error over noise in the patterns that carry the misfit, step by step", title_justify="left")
-    for name in ("step", "campaign", "fitted runs", "unused runs", "verdict"):
-        table.add_column(name, justify="left")
+    table = Table(title=f"{file.heading}: step by step", title_justify="left")
+    for name in ("step", "campaign", SAMPLES, f"{PATTERNS}, {FITTED}", f"{PATTERNS}, {UNUSED}", "verdict"):
+        table.add_column(name, justify="left", overflow="fold")
     for step in file.steps:
+        told = step_of(step).samples
+        samples = f"{told[1].before:.2f} -> {told[1].after:.2f}" if told else "-"
         fitted, unused = (
             "-" if step.get(f"{runs}_before") is None else f"{step[f'{runs}_before']:.2f} -> {step[f'{runs}_after']:.2f}"
             for runs in ("training", "held_out")
         )
         verdict = step.get("verdict", "") + ("" if step.get("kept", True) else ", not kept")
-        table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), fitted, unused, verdict)
+        table.add_row(" + ".join(step["effects"]), step.get("campaign", ""), samples, fitted, unused, verdict)
     out.print(table)
+    out.print(f"{SAMPLES}: of the signal that was furthest off, of {UNUSED} where there are, {OF_SAMPLES}\n{PATTERNS}: {COUNTED}")
     show_left(file.steps[-1], out)
 
 
@@ -234,7 +251,8 @@ def show_left(step: Mapping[str, Any], out: Console) -> None:
 
 def show_next(run: NextRun) -> None:
     out = console(WIDTH)
-    out.print(run.verdict)
+    for line in run.lines:
+        out.print(line)
     if run.result is not None:
         show_proposals(run, run.result, out)
     show_asked(run, out)

@@ -36,7 +36,8 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     out, e = console(WIDTH), entry.effect
     numbered = f", number {e.number} of the physics audit" if e.number else ""
     out.print(styled((e.title, "bold"), f"  {entry.name}{numbered}, acts in the {entry.part}"))
-    for head, text in (("law", e.law), ("source", e.source), ("signature", e.signature), ("shows in", ", ".join(e.signals) or "every quantity")):
+    expected = f"{e.signature} (as expected of {IDEAL_REDUCER})"
+    for head, text in (("law", e.law), ("source", e.source), ("signature", expected), ("shows in", ", ".join(e.signals) or "every quantity")):
         out.print(f"  {head:<10}{text}")
     table = dense("parameters")
     for head in ("name", "kind", "unit", "off or start", "bounds", "meaning"):
@@ -44,6 +45,9 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
     for p in e.parameters:
         table.add_row(p.variable.path, p.told_kind, *range_of(p), p.variable.description)
     out.print(table)
+    if reducer == IDEAL_REDUCER:
+        out.print(f"What follows is of {reducer}, an ideal reducer with rigid supports and without losses, on which an effect shows by itself; on your own"
+                  " it may change figures, a lost motion above all, by many times less or more: --reducer takes its name or file, RV20E-121 or my.toml.")
     for signature in found:
         title = f"computed for {reducer}: {signature.case.title}"
         if not signature.shows:
@@ -58,9 +62,7 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
         out.print(table)
     if found and not any(signature.shows for signature in found):
         return
-    ideal = " (rigid supports, no losses, so that an effect shows by itself); --reducer RV20E-121 for one as soft and lossy as a real one"
-    out.print(f"Figures are those of {reducer}{ideal if reducer == IDEAL_REDUCER else ''}. Those that are not listed do not change"
-              " at the conditions at which they are computed.")
+    out.print(f"Figures are those of {reducer}. Those that are not listed do not change at the conditions at which they are computed.")
 
 
 def show_signals(entry: Entry, changes: "Mapping[str, Change]") -> None:

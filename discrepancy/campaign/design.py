@@ -94,9 +94,9 @@ class Design:
         """Smallest and largest torque [N.m] at which stiffness shows, and how many levels lie between."""
         steady = [abs(load) for load in self.levels("load", "torsional_stiffness", "transmission_error")]
         swept = [np.abs(record.axes["torque"]) for record in self.of("hysteresis")]
-        numbers = distinct(steady + [number for torque in swept for number in torque[torque > 0.0]], "load")
-        numbers = [number for number in numbers if number > 0.0]
-        return (min(numbers), max(numbers), len(numbers)) if numbers else (0.0, 0.0, 0)
+        numbers = [number for number in steady + [number for torque in swept for number in torque] if number > 0.0]
+        # Levels stand for all numbers near them: the ends are those that were measured.
+        return (float(min(numbers)), float(max(numbers)), len(distinct(numbers, "load"))) if numbers else (0.0, 0.0, 0)
 
     def coupled_factors(self) -> list[tuple[str, str]]:
         """Pairs of factors that always change together over the conditions."""

@@ -19,6 +19,13 @@ class Need:
 
     text: str
     met: Callable[[Design], bool]
+    # What of it the campaign has, beside what is asked for.
+    has: Callable[[Design], str] | None = None
+
+    def lacking(self, design: Design) -> str:
+        """What is asked for, with what there is of it."""
+        there = self.has(design) if self.has else ""
+        return f"{self.text}; there are {there}" if there else self.text
 
 
 @dataclass(frozen=True)
@@ -92,7 +99,14 @@ def wide_torques(design: Design) -> bool:
     return count >= 4 and largest >= 0.99 * rated and smallest <= 0.11 * largest
 
 
-WIDE_TORQUES = Need("at least 4 torques from 10 % to 100 % of the rated torque or more (better 200 %)", wide_torques)
+def reach_text(design: Design) -> str:
+    smallest, largest, count = design.torque_reach()
+    rated = design.campaign.rated_torque
+    share = f", which is {100.0 * smallest / rated:.0f} % to {100.0 * largest / rated:.0f} % of the rated" if rated else ""
+    return f"{count} from {smallest:.3g} to {largest:.3g} N.m{share}" if count else ""
+
+
+WIDE_TORQUES = Need("at least 4 torques from 10 % to 100 % of the rated torque or more (better 200 %)", wide_torques, reach_text)
 
 PAIRS = (
     Pair(1, ("needle clearance", "raceway wear"),
@@ -168,6 +182,6 @@ def judge(pair: Pair, design: Design) -> Verdict:
     """The alternative that lacks least decides."""
     if not design.measures(*pair.signals):
         return Verdict(pair, "not visible", (f"none of {', '.join(pair.signals)} is measured",))
-    lacking = [tuple(need.text for need in needs if not need.met(design)) for needs in pair.alternatives]
+    lacking = [tuple(need.lacking(design) for need in needs if not need.met(design)) for needs in pair.alternatives]
     least = min(lacking, key=len)
     return Verdict(pair, "not separable" if least else "separable", least)

@@ -25,6 +25,8 @@ from studies.coupled import COLUMNS
 from studies.hysteresis import LOST_MOTION_SHARE
 from studies.wear_figures import peak_of_circle
 
+# Rigid supports and no losses: an effect shows by itself.
+IDEAL = "RV20E-121-rigid"
 ORDERS = (1, 2, 39, 40, 78, 80, 120, 121, 156, 234, 279, 361, 1440, 1560)
 # Samples of one turn of the output; the mesh's order 1560 needs more than 3120.
 SAMPLES = 4096
@@ -84,7 +86,7 @@ class Signature:
         return next(r for r in self.rows if r.figure == figure and r.condition == condition)
 
 
-def new_bench(reducer: str = "RV20E-121-rigid") -> Bench:
+def new_bench(reducer: str = IDEAL) -> Bench:
     return Bench(load_reducer(reducer), {})
 
 

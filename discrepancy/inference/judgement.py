@@ -21,7 +21,8 @@ def against(judged: HeldOut | None) -> str:
     if judged is None:
         return ""
     if judged.seen and judged.after > max(judged.before, WITHIN_NOISE):
-        return f"on runs that were not used the error grew from {judged.before:.2f} to {judged.after:.2f}: what is named fits, it does not explain"
+        grew = f"the misfit in the patterns grew from {judged.before:.2f} to {judged.after:.2f}"
+        return f"on runs that were not used {grew}: what is named fits, it does not explain"
     if judged.p_after < 0.0005 and judged.after > 1.5:
         return "runs that were not used are not explained: their error is far above their noise"
     return ""

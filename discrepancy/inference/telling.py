@@ -85,7 +85,7 @@ class Teller:
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0, *beside_first(member, members)))
                 if after > before:
-                    warnings.append(f"{c.name}: the error on runs not used for fitting grew from {before:.2f} to {after:.2f}")
+                    warnings.append(f"{c.name}: the misfit in the patterns of runs not used for fitting grew from {before:.2f} to {after:.2f}")
         if several:
             effects.sort(key=lambda e: -e.gain)
         names = {e.name for e in effects}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.intervals import estimate_text
+from discrepancy.intervals import estimate_text, relied_on
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
@@ -64,6 +64,11 @@ def effect_title(name: str) -> str:
     return effect + (f" ({variant})" if variant else "")
 
 
+def effects_title(names: str) -> str:
+    """``hole_position_errors.hole_2 + play`` as words."""
+    return " + ".join(effect_title(name) for name in names.split(" + "))
+
+
 def signal_title(signal: str) -> str:
     """``wear_depth[surface=pin]`` as words."""
     name, _, tags = signal.partition("[")
@@ -101,5 +106,5 @@ def signal_axis(signal: str, unit: str) -> str:
 def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     found = of_estimate(entry)
-    low, high = (found.number(end) for end in entry["interval"])
+    low, high = (found.number(end) for end in relied_on(entry))
     return *estimate_text(found.number(entry["value"]), (low, high), 3, number), pretty(found.unit)

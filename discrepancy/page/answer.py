@@ -9,8 +9,10 @@ from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, 
 from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys
 from discrepancy.page.amounts import effect_title, in_words, signal_title
+from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
+from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from pages.content import Card, Page
@@ -36,7 +38,7 @@ def page(answer: Answer) -> Page:
         ]
     else:
         sections = [localised, *laws_found, rivals(answer)]
-    sections += comparison.figures_section(answer.figures, answer.model.file, bool(diagnosis.nuisances))
+    sections += figures_of_answer(answer)
     if diagnosis.base_off:
         sections.insert(0, base_off(answer))
     where = comparison.conditions(answer, runs) if runs else ""
@@ -65,7 +67,7 @@ def sentence(answer: Answer) -> str:
         said += f" {figure[:1].upper()}{figure[1:]}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
     sizes = left_sizes(answer, signal_title)
-    return said + (f" Left are: {left}." if left else "") + (f" Every sample is off by: {sizes}." if sizes else "")
+    return said + (f" Left are: {left}." if left else "") + (f" {capital(SAMPLES)}: {sizes}." if sizes else "")
 
 
 def headline(answer: Answer) -> str:
@@ -97,20 +99,45 @@ def part_named(answer: Answer, names: list[str]) -> str:
     return f"{listed(names).capitalize()} {'is' if len(names) == 1 else 'are'}"
 
 
-def unused(answer: Answer, best: dict[str, Any]) -> Card:
-    """Error on what was not fitted; green only if runs that were held out show that it fell."""
+def samples(answer: Answer, best: dict[str, Any]) -> list[Card]:
+    """The number that a comparison begins with, of the signal that was furthest off, of unused runs where they are judged; nothing where none was fitted."""
+    unused_rows = wording.judged(answer, best).get("rms") or {}
+    rows, runs = (unused_rows, UNUSED) if unused_rows else (wording.fitted_samples(answer), FITTED)
+    found = furthest_off((name, row["before"], row["after"], row["floor"]) for name, row in rows.items())
+    if found is None:
+        return []
+    signal, before, after = found
+    more = f", the furthest off of {len(rows)} signals" if len(rows) > 1 else ""
+    why = whys.of_samples(answer, signal, rows[signal], bool(unused_rows))
+    note = f"{signal_title(signal)}, {runs}{more}"
+    return [Card(capital(SAMPLES), number(after), note, number(before), OF_SAMPLES, tone_of(answer, best) if unused_rows else "plain", why)]
+
+
+def tone_of(answer: Answer, best: dict[str, Any]) -> str:
+    """Green only if runs that were held out show that it fell."""
     worse = best["held_out_error_after"] >= best["held_out_error_before"]
+    return "bad" if worse else "good" if wording.is_shown(answer, best) else "plain"
+
+
+def unused(answer: Answer, best: dict[str, Any]) -> Card:
+    """What the verdict counts of that which was not fitted."""
     judged = answer.effects if wording.fitted_together(answer) else [best]
     by_runs, drowned = wording.by_unused_runs(answer, best), wording.below_noise(answer, best)
+    names = " + ".join(effect_title(e["name"]) for e in judged)
     return Card(
-        "Error on unused conditions" if by_runs else "Error on conditions left out in turn",
+        f"{capital(PATTERNS)}, unused runs" if by_runs else "Misfit of a condition that is left out",
         number(best["held_out_error_after"]),
-        f"with {' + '.join(effect_title(e['name']) for e in judged)}" + ("; the samples are off by less than their noise" if drowned else ""),
+        f"with {names}; {'what the verdict counts' if by_runs else 'each left out in turn'}"
+        + ("; the samples are off by less than their noise" if drowned else ""),
         number(best["held_out_error_before"]),
-        "in the patterns that matter" if drowned else "times noise",
-        "bad" if worse else "good" if wording.is_shown(answer, best) else "plain",
+        OF_PATTERNS if by_runs else OF_SAMPLES,
+        tone_of(answer, best),
         whys.of_unused(answer, best["held_out_error_before"], best["held_out_error_after"]),
     )
+
+
+def capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def cards(answer: Answer) -> list[Card]:
@@ -124,7 +151,7 @@ def cards(answer: Answer) -> list[Card]:
         title = "Share of the misfit explained" + (" together" if together else "")
         made.append(Card(title, share, f"alone: {alone}" if together else f"best: {effect_title(best['name'])}", why=whys.of_share(answer)))
         if best["held_out_error_before"] is not None:
-            made.append(unused(answer, best))
+            made += [*samples(answer, best), unused(answer, best)]
     made.append(
         Card(
             "Findings of the localisation",

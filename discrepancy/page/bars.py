@@ -5,6 +5,7 @@ from typing import Any
 
 from discrepancy.model_file import SignalEntry
 from discrepancy.page.amounts import signal_title
+from discrepancy.sample_errors import SAMPLES
 from pages import look
 from pages.look import Figure, short
 
@@ -33,6 +34,7 @@ def pairs(
     hover: tuple[Sequence[str], Sequence[str]],
     columns: int = 6,
     words: tuple[str, str] = ("before", "after"),
+    axis: str = SAMPLES,
 ) -> Figure:
     """Two horizontal bars per group, in times the noise."""
     data = two_bars(groups, (before, after), [f"%{{y}}<br>{word}: %{{customdata}}<extra></extra>" for word in words], words)
@@ -40,7 +42,7 @@ def pairs(
         trace |= {"customdata": list(texts), "text": [f"{v:.2f}" if v is not None else "" for v in values]}
     shape, label = noise_line(horizontal=False)
     most = max([v for v in (*before, *after) if v is not None], default=1.0)
-    layout = two_bars_layout("error over noise", [0.0, 1.12 * max(most, 1.1)]) | {"shapes": [shape], "annotations": [label]}
+    layout = two_bars_layout(axis, [0.0, 1.12 * max(most, 1.1)]) | {"shapes": [shape], "annotations": [label]}
     return Figure(name, title, caption, data, layout, columns, 132 + 46 * max(len(groups), 2))
 
 

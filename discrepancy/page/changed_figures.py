@@ -5,23 +5,40 @@ from collections.abc import Sequence
 from discrepancy.extend import Extension
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.page import amounts, whys
-from discrepancy.page.comparison import FEW_FIGURES
+from discrepancy.page.comparison import FEW_FIGURES, figures_section
+from discrepancy.verdict import Answer
 from pages.content import Section, Table
 from pages.words import number
 
 
 def changed_figures(result: Extension) -> list[Section]:
+    """Those of an extension; nothing where none is read."""
+    return section(result.figures, "Read alike from what was measured and from both models, each calibrated to this campaign as in a comparison.")
+
+
+def figures_of_answer(answer: Answer) -> list[Section]:
+    """Those of a diagnosis: of the base model, and with what is named in it where something was fitted."""
+    calibrated = bool(answer.diagnosis.nuisances)
+    if not answer.figures_after:
+        return figures_section(answer.figures, answer.model.file, calibrated)
+    lead = (
+        f"Read alike from what was measured, from {answer.model.file.in_words} and from it with {amounts.effects_title(answer.added)}, as fitted"
+        f"{', each calibrated to this campaign' if calibrated else ''}."
+    )
+    return section(list(zip(answer.figures, answer.figures_after, strict=True)), lead)
+
+
+def section(pairs: Sequence[tuple[KeyFigure, KeyFigure]], lead: str) -> list[Section]:
     """Of many figures those that were furthest off before, all of them folded; nothing where none is read."""
-    before = [f for f, _ in result.figures]
+    before = [f for f, _ in pairs]
     if not before:
         return []
-    after = {id(f): changed for f, changed in result.figures}
+    after = {id(f): changed for f, changed in pairs}
     worst = [(f, after[id(f)]) for f in furthest(before)[:FEW_FIGURES]]
     tables = [table(worst)]
-    lead = "Read alike from what was measured and from both models, each calibrated to this campaign as in a comparison."
     if len(before) > len(worst):
         lead += f" Of {len(before)} each is shown where it was furthest off."
-        tables.append(table(result.figures, f"All {len(before)} key figures"))
+        tables.append(table(pairs, f"All {len(before)} key figures"))
     return [Section("figures", "Key figures", lead, [], tables)]
 
 

@@ -4,12 +4,13 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import CONSPICUOUS, Comparison
+from discrepancy.compare import CONSPICUOUS, Comparison, deviations_of
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure, furthest
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
+from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis, of_parameter
 from discrepancy.verdict import Answer
 from fmu_src.effect_words import effect_words
@@ -108,7 +109,7 @@ def cards(result: Comparison) -> list[Card]:
             place(row)[:1].upper() + place(row)[1:],
             number(row["ratio"]),
             f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
-            unit="times noise",
+            unit="times noise, all samples",
             tone=tone(row["ratio"], row["held_out"]),
             why=whys.of_error(result.diagnostician.space, row),
         )
@@ -124,7 +125,7 @@ def errors(result: Comparison) -> Section:
     held = {run["condition"] for run in result.runs if run["held_out"]}
     heat = maps.grid(
         "Error over noise by signal and condition",
-        "Root mean square over the replicates; pale is as good as the noise allows, white was not measured.",
+        "Root mean square over all samples of the replicates; pale is as good as the noise allows, white was not measured.",
         "error_map",
         {k: series.rms(v) for k, v in cells.items()},
         held,
@@ -140,7 +141,7 @@ def errors(result: Comparison) -> Section:
         ]
         for s in result.signals
     ]
-    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", "error over noise"], rows, (2, 3, 4, 5),
+    table = Table("Error and noise per signal", ["signal", "runs", "number", "error", "noise", SAMPLES], rows, (2, 3, 4, 5),
                   whys=[whys.of_error(result.diagnostician.space, s) for s in result.signals])
     lead = "Root mean squares over all samples. Noise is what replicates of one condition differ by."
     # A map of one condition says what the table says.
@@ -220,7 +221,7 @@ def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
 
 
 def nuisances(result: Comparison) -> Section:
-    known = {p.name: p for p in result.model.nuisances}
+    known, deviations = {p.name: p for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
     rows = []
     for name, value in result.nuisances.items():
         parameter = known.get(name)
@@ -228,9 +229,11 @@ def nuisances(result: Comparison) -> Section:
         scale = of_parameter(abs(value), unit)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
         told = told_name(name, tables_of(result.model))
-        rows.append([told, number(scale.number(value), 4), amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        size = abs(scale.factor) * deviations.get(name, 0.0)
+        sure = f"{number(scale.number(value), 4)}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
+        rows.append([told, sure, amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
-        "Fitted to the campaign before anything was compared."
+        "Fitted to the campaign before anything was compared; ± is the standard deviation that noise leaves."
         if rows
         else "Nothing was declared for calibration: the model stands as it is."
     )

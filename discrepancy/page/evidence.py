@@ -5,10 +5,11 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.verdict import SET, SEVERAL
+from discrepancy.inference.verdict import NONE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.amounts import with_minus
+from discrepancy.sample_errors import COUNTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -101,8 +102,8 @@ def held_out(answer: Answer) -> Section:
         f"{not_judged_text(answer).capitalize()}: each {'other ' if answer.diagnosis.fits.space.held_out else ''}condition was left out in turn."
         if left_out
         else (
-            "Runs that no parameter was fitted to. 1 is what replicates differ by; the error is taken over the "
-            "patterns that carried the misfit, and the effects' own."
+            f"Runs that no parameter was fitted to. The {SAMPLES}, is that of the comparison ({OF_SAMPLES}). The {PATTERNS} is taken over those that"
+            f" carried it and the effects' own ({OF_PATTERNS}): it stands out of the noise of single samples, and the verdict counts it."
         )
     )
     names = [named(e) for e in measured]
@@ -111,10 +112,12 @@ def held_out(answer: Answer) -> Section:
         names, measured = [" + ".join(names)], measured[:1]
     before, after = [e["held_out_error_before"] for e in measured], [e["held_out_error_after"] for e in measured]
     hover = [f"{number(v)}, 1 is what noise leaves there" for v in before], [f"{number(v)}, 1 is what noise leaves there" for v in after]
-    figures = [bars.pairs("held_out", "Error before and after", "In the patterns that matter.", names, before, after, hover)]
+    name = "misfit of a condition that is left out" if left_out else PATTERNS
+    caption = f"Before and after; {OF_SAMPLES if left_out else COUNTED}."
+    figures = [bars.pairs("held_out", name.capitalize(), caption, names, before, after, hover, axis=f"{name}, over noise")]
     signals: dict[str, dict[str, float]] = next((v["rms"] for v in rows.values() if v.get("rms")), {})
     if signals:
-        figures.append(by_signal(answer, signals, names[0]))
+        figures.insert(0, by_signal(answer, signals, names[0]))
     return Section("held-out", "On unused conditions", lead, figures)
 
 
@@ -129,8 +132,8 @@ def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
     )
     return bars.pairs(
         "held_out_signals",
-        "Every sample, per signal",
-        f"Root mean square of all samples over the noise, with {effect}.",
+        SAMPLES[:1].upper() + SAMPLES[1:],
+        f"Root mean square over the runs of a signal, before and with {effect}; {OF_SAMPLES}.",
         [amounts.signal_title(n) for n in names],
         ratio["before"],
         ratio["after"],
@@ -207,7 +210,8 @@ def rivals(answer: Answer) -> Section:
             )
         ]
     table = Table("", ["effect", "reason"], rows, whys=[whys.of_rival(r) for r in rejected])
-    return Section("rivals", "Rivals and why they were turned down", lead, figures, [table])
+    title = "What came nearest, none of it significant" if answer.verdict == NONE else "Rivals and why they were turned down"
+    return Section("rivals", title, lead, figures, [table])
 
 
 def recovered(answer: Answer) -> Section:

@@ -7,6 +7,7 @@ from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
+from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
 from discrepancy.wording import signals_left
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
@@ -21,7 +22,7 @@ def extension_page(result: Extension) -> Page:
     kept = "" if step.kept else " The model stays as it was."
     finding = (
         f"{step.label.capitalize()}: {result.verdict}. "
-        f"{step.reason[:1].upper() + step.reason[1:]}.{kept if 'stays' not in step.reason else ''}"
+        f"{reason_text(step)}.{kept if 'stays' not in step.reason else ''}"
     )
     finding += left_sentence(step)
     warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
@@ -44,13 +45,12 @@ def model_page(file: ModelFile) -> Page:
     judged = [s.held_out for s in kept if s.held_out]
     finding = f"{len(kept)} of {len(steps)} steps are part of the model."
     if judged:
-        finding += (
-            f" The error on unused runs fell from {number(judged[0].before)} to {number(judged[-1].after)} times the noise."
-            if judged[-1].after < judged[0].before
-            else (
-                f" The error on unused runs went from {number(judged[0].before)} to {number(judged[-1].after)} times the noise."
-            )
-        )
+        first, last = kept[0].samples, kept[-1].samples
+        if first and last and (first[0], first[2]) == (last[0], last[2]):
+            off = f"{number(first[1].before)} → {number(last[1].after)}"
+            finding += f" {SAMPLES.capitalize()}: {off} ({amounts.signal_title(last[0])}, {UNUSED if last[2] else FITTED})."
+        went = "fell" if judged[-1].after < judged[0].before else "went"
+        finding += f" The {PATTERNS} of unused runs {went} from {number(judged[0].before)} to {number(judged[-1].after)} ({OF_PATTERNS})."
     else:
         finding += " None of them was judged on unused runs."
     finding += left_sentence(steps[-1])
@@ -62,12 +62,18 @@ def model_page(file: ModelFile) -> Page:
         Section(
             "signals",
             "Signal by signal",
-            "Every step, with the noise at 1.",
+            f"Every step: {SAMPLES}.",
             [signal_figure(s, k) for k, s in enumerate(steps, start=1) if s.signals],
         ),
         parameters(file),
     ]
     return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+
+
+def reason_text(step: Step) -> str:
+    """Why a step has its verdict, in the words and signs of a page; steps of before may begin otherwise."""
+    text = amounts.in_words(step.reason).replace("->", "→")
+    return text[:1].upper() + text[1:]
 
 
 def left_sentence(step: Step) -> str:
@@ -85,16 +91,22 @@ def cards(step: Step) -> list[Card]:
     made = [
         Card(step.label, step.verdict, "kept" if step.kept else "not kept", tone=TONES.get(step.verdict, "fair"))
     ]
+    if step.samples:
+        signal, off, unused = step.samples
+        tone = "good" if unused and step.verdict == HELPED else "plain"
+        note = f"{amounts.signal_title(signal)}, {UNUSED if unused else FITTED}"
+        made.append(Card(SAMPLES[:1].upper() + SAMPLES[1:], number(off.after), note, number(off.before), OF_SAMPLES, tone))
+    name = PATTERNS[:1].upper() + PATTERNS[1:]
     for key, text, note in (
-        ("held_out", "Error on unused runs", "in the patterns that carry the misfit; what the verdict rests on"),
-        ("training", "Error on fitted runs", "in the same patterns; any effect can lower it"),
+        ("held_out", f"{name}, {UNUSED}", "what the verdict rests on"),
+        ("training", f"{name}, {FITTED}", "any effect can lower it"),
     ):
         change = step.change(key)
         if change:
             before, after = change.before, change.after
             shown = key != "training" and step.verdict == HELPED
             tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
-            made.append(Card(text, number(after), note, number(before), "1: noise alone", tone, whys.of_step(key, before, after, len(step.signals))))
+            made.append(Card(text, number(after), note, number(before), OF_PATTERNS, tone, whys.of_step(key, before, after, len(step.signals))))
     return made
 
 
@@ -105,11 +117,11 @@ def signal_figure(step: Step, place: int = 0) -> Figure:
         [f"{amounts.text(getattr(r, k), r.unit, r.signal)}, noise {amounts.text(r.noise_floor, r.unit, r.signal)}" for r in rows]
         for k in ("before", "after")
     )
-    title = f"Step {place}: {step.label}" if place else "Error over noise per signal"
+    title = f"Step {place}: {step.label}" if place else SAMPLES[:1].upper() + SAMPLES[1:]
     caption = (
-        f"{step.verdict[:1].upper() + step.verdict[1:]}: {step.reason}."
+        f"{step.verdict[:1].upper() + step.verdict[1:]}: {reason_text(step)}."
         if place
-        else "Root mean square of all samples over the noise of replicates."
+        else f"Root mean square over the runs of each signal, the noise that of replicates; {OF_SAMPLES}."
     )
     return bars.pairs(
         f"signals_{place}", title, caption, bars.signal_rows(rows), ratio["before"], ratio["after"], (before, after), 6 if place else 12
@@ -155,7 +167,7 @@ def ladder_section(file: ModelFile) -> Section:
     return Section(
         "ladder",
         "Ladder",
-        "Every attempt, those that did not help too. What counts are the unused runs; errors in the patterns that carry the misfit, over noise.",
+        f"Every attempt, those that did not help too. What counts are the unused runs, and the {PATTERNS} there ({OF_PATTERNS}).",
         [ladder.figure(steps)],
         [Table("", head, rows, (3, 4))],
     )

@@ -1,10 +1,11 @@
-"""The ladder as a figure: the error over the noise, attempt by attempt."""
+"""The ladder as a figure: the misfit in the patterns, attempt by attempt."""
 
 from collections.abc import Sequence
 from typing import Any
 
 from discrepancy.ladder_step import Change, Step
 from discrepancy.page.bars import noise_line
+from discrepancy.sample_errors import OF_PATTERNS, PATTERNS
 from pages import look
 from pages.look import Figure, short
 
@@ -89,7 +90,7 @@ def figure(steps: Sequence[Step], name: str = "ladder") -> Figure:
         text["y"] = 0.0
     layout = look.layout(
         xaxis=look.axis("", **ticks),
-        yaxis=look.axis("error over noise", **limits),
+        yaxis=look.axis(f"{PATTERNS}, over noise", **limits),
         showlegend=True,
         legend=legend,
         shapes=[shape],
@@ -97,10 +98,10 @@ def figure(steps: Sequence[Step], name: str = "ladder") -> Figure:
         margin={"l": 60, "r": 24, "t": 34, "b": 60},
     )
     caption = (
-        "Root mean square of the error over the noise, over all signals. A dotted line with a cross is an attempt "
+        f"Over all signals; {OF_PATTERNS}. A dotted line with a cross is an attempt "
         "that did not help: the model stayed as it was."
     )
-    return Figure(name, "Error over noise, step by step", caption, traces, layout, 12, 380)
+    return Figure(name, f"{PATTERNS[:1].upper() + PATTERNS[1:]}, step by step", caption, traces, layout, 12, 380)
 
 
 def clean(values: Sequence[float | None]) -> list[float | None]:

@@ -1,4 +1,4 @@
-"""The ladder as a standalone SVG, for a README: the error over the noise falling step by step."""
+"""The ladder as a standalone SVG, for a README: the misfit in the patterns falling step by step."""
 
 import math
 from collections.abc import Sequence
@@ -8,6 +8,7 @@ from xml.sax.saxutils import escape
 from discrepancy.ladder_step import Change, Step, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page.ladder import KINDS, WIDE, attempts, stairs
+from discrepancy.sample_errors import PATTERNS
 from fmu_src.checked_file import write_text
 from pages.look import FONT, GRID, INK, QUIET
 
@@ -60,9 +61,9 @@ def svg(name: str, steps: Sequence[Step]) -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}"'
         f' role="img" font-family="{escape(FONT, QUOTES)}" font-size="13">',
-        f"<title>{escape(name)}: error over noise, step by step</title>",
+        f"<title>{escape(name)}: {PATTERNS}, step by step</title>",
         f'<rect width="{width:.0f}" height="{height:.0f}" rx="6" fill="#ffffff"/>',
-        text(LEFT, 24, f"{name}: error over noise", INK, weight=600),
+        text(LEFT, 24, f"{name}: {PATTERNS}, over noise", INK, weight=600),
     ]
     if not steps:
         parts.append(text(LEFT, TOP + 20, "no steps yet", QUIET))

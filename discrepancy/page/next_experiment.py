@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 
+from discrepancy.clauses import clauses
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps, whys
@@ -34,12 +35,19 @@ def page(run: NextRun) -> Page:
         # The table that answers stands first.
         sections = [*sections, left] if run.result else [left, *sections]
     rivals = listed([effect_title(r) for r in run.rivals])
-    verdict = readable(run.verdict)
-    finding = verdict[:1].upper() + verdict[1:] + "."
+    # What no run tells has a place of its own: the finding is what to do.
+    untold = [line for text in run.untold for line in clauses(text)]
+    finding = sentences(run.lines[len(untold) :])
+    if untold:
+        sections = [*sections, Section("untold", "What no other run of these signals tells", sentences(untold))]
     where = f"To separate {rivals}" if len(run.rivals) > 1 else "Diagnosis: " + run.answer.verdict
     return Page(
         "The next experiment", comparison.title(run.answer), where, finding, cards(run, currency), sections, run.answer.warnings
     )
+
+
+def sentences(lines: Sequence[str]) -> str:
+    return " ".join(f"{line[:1].upper()}{line[1:]}." for line in map(readable, map(amounts.with_titles, lines)))
 
 
 def cards(run: NextRun, currency: str) -> list[Card]:

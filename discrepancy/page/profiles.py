@@ -1,5 +1,6 @@
 """Pictures of the profile likelihood of every named parameter."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.refit.profile import Profile, profiles
 from discrepancy.page.amounts import effect_title, pretty
-from discrepancy.scales import of_parameter
+from discrepancy.scales import of_estimate, of_parameter
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from fmu_src.progress import task
@@ -26,7 +27,8 @@ def section(answer: Answer) -> Section:
     if best.name not in answer.profiles:
         with task("looking at how well each parameter is known"):
             answer.profiles[best.name] = profiles(space, best)
-    figures = [figure(k, p, told_name(p.name, tables_of(answer.model))) for k, p in enumerate(answer.profiles[best.name])]
+    told = {name: entry for effect in answer.effects for name, entry in effect["parameters"].items()}
+    figures = [figure(k, p, told_name(p.name, tables_of(answer.model)), told.get(p.name)) for k, p in enumerate(answer.profiles[best.name])]
     lead = (
         f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
         " follow. Grey is the parabola of the interval; a line that leaves it, flattens or has a second valley says that the interval is too simple."
@@ -42,8 +44,9 @@ def between(p: Profile, best: float, at: Floats) -> Floats:
     return found
 
 
-def figure(place: int, p: Profile, name: str) -> look.Figure:
-    scale = of_parameter(float(np.abs(p.values).max()), p.unit, p.is_direction)
+def figure(place: int, p: Profile, name: str, told: Mapping[str, Any] | None = None) -> look.Figure:
+    """``told``: the estimate as the answer has it, whose unit the picture takes: far ends of a profile would ask for another."""
+    scale = of_estimate(told) if told else of_parameter(float(np.abs(p.values).max()), p.unit, p.is_direction)
     x = scale.factor * p.values + scale.offset
     best, width = float(p.values[int(np.argmin(p.chi2))]), p.deviation
     fine = np.linspace(float(p.values.min()), float(p.values.max()), 61)

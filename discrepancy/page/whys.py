@@ -1,7 +1,7 @@
 """What answers "why?" beside a number: by which relation it comes about, from which data, and with which margin it says what it says."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from discrepancy.compare import CONSPICUOUS
@@ -77,6 +77,20 @@ def of_estimate(space: Workspace, entry: dict[str, Any]) -> Why:
         "least squares of measured − predicted in units of the noise, nuisances fitted along",
         f"{counted(len(runs), 'fitted run')} of {signals}{held}",
         f"95 % by Student's law{freedom} from the curvature of chi-square, widened where the fit leaves more than noise; {taken}.{bound}",
+    )
+
+
+def of_samples(answer: Answer, signal: str, row: Mapping[str, float], unused: bool) -> Why:
+    """Error of all samples of a signal's unused or fitted runs: ``before``, ``after``, ``floor``."""
+    space = answer.diagnosis.fits.space
+    unit = next((r.unit for r in space.records if stream_of(r) == signal), "1")
+    kind = "held-out run" if unused else "fitted run"
+    runs = sum(stream_of(r) == signal and r.held_out == unused for r in space.records)
+    before, after, floor = (amounts.text(row[key], unit, signal) for key in ("before", "after", "floor"))
+    return Why(
+        "root mean square of measured − predicted over all samples, over that of the noise: the number that a comparison shows",
+        f"{counted(runs, kind)}: {before} before, {after} with what is named, noise {floor}; {noise_from(space, signal)}",
+        NOISE_IS_ONE,
     )
 
 
