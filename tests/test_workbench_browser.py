@@ -242,6 +242,40 @@ def test_from_the_doubt_about_a_locked_input_a_click_leads_to_its_cell_where_mea
     assert 'locked_at = "mean"' in (bench.folder / "campaign.toml").read_text(encoding="utf-8")
 
 
+def test_a_guess_that_is_right_is_stated_by_a_click_and_saving_says_what_stands_open(bench, tmp_path):
+    """The field was empty although names hold the angle, saving went on without a word, and a right guess could not be stated as it is."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    paths = [loop_file(tmp_path / f"Schleife_{place}Grad_1.csv", 200 + place, 400.0) for place in (40, 300)]
+    for path in paths:
+        path.write_text(path.read_text(encoding="utf-8").replace("Verdrehung [arcmin]", "Lage"), encoding="utf-8")
+    page.set_input_files("#files", [str(path) for path in paths])
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    page.locator("#save:enabled").wait_for()
+    names = page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts()
+    told = page.locator("#open")
+    assert "where the input was locked in 300Grad, 40Grad: loops are predicted as the mean over a turn" in told.inner_text()
+    assert "what else is not sure above is taken as it stands" in told.inner_text()
+    # A unit, a tag, and the angles that names hold.
+    page.get_by_role("button", name=re.compile("so it is: Lage is value")).click()
+    page.locator("td.reason", has_text="unit: given").wait_for()
+    page.get_by_role("button", name="so it is: locked input").click()
+    page.get_by_role("button", name="so it is: locked input").wait_for(state="detached")
+    assert page.get_by_placeholder("40 deg?").count() == 1
+    page.get_by_role("button", name="Yes: locked at 300 deg, 40 deg, as their names say").click()
+    told.wait_for(state="detached")
+    assert [one.input_value() for one in page.get_by_label("locked at", exact=True).all()] == ["300", "40"]
+    assert page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts() == names
+    # The same said of the numbers in the names leaves the conditions their names.
+    page.get_by_label("locked at", exact=True).first.fill("")
+    page.get_by_label("locked at", exact=True).first.press("Tab")
+    page.get_by_label("numbers in the names").select_option(label="input locked at [°]")
+    told.wait_for(state="detached")
+    assert page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts() == names
+
+
 def test_from_a_note_of_a_result_about_a_locked_input_a_click_leads_to_its_cell(bench, tmp_path):
     """In had such a button, Look and Diagnose told what to write and not where."""
     page, text = dropped(bench, tmp_path), "loops in 20degC: nobody says where the input was locked; state it"

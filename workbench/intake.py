@@ -25,6 +25,7 @@ from discrepancy.held_names import LOCKED_AT
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available, named_in
+from workbench.confirming import answer_of
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
@@ -199,7 +200,7 @@ def view(folder: Folder) -> dict[str, Any]:
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     for told, doubt in zip(found["proposal"]["doubts"], proposal.doubts):
-        told["text"] = on_page(told["text"])
+        told |= {"text": on_page(told["text"])} | answer_of(doubt, proposal)
         if doubt in proposal.unplaced:
             told["cell"] = [doubt.place.split(", ")[0], LOCKED_AT]
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}

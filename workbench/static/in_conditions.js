@@ -1,6 +1,7 @@
 // Conditions of the dropped files: what is needed, what is not sure, and the table of their numbers.
 
 import { choose, h, note, table, words } from "./dom.js";
+import { anglesNamed, soItIs, yes } from "./in_yes.js";
 import { PLACE, matters, saysNothing, toCell } from "./to_cell.js";
 
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
@@ -52,7 +53,7 @@ export function questions(bag) {
           "details",
           { open: unsettled && doubts.length < 6 },
           h("summary", {}, unsettled ? `${doubts.length} not sure` : `saved with ${doubts.length} guess${doubts.length === 1 ? "" : "es"} that ${doubts.length === 1 ? "was" : "were"} not sure`),
-          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text} `, d.cell ? toCell(d.cell) : ""])),
+          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text} `, yes(d, wish), " ", d.cell ? toCell(d.cell) : ""])),
         )
       : null,
   ];
@@ -62,7 +63,8 @@ export function questions(bag) {
 const NUMBER = /^[-+]?[\d.,]+(e[-+]?\d+)?$/i;
 const TYPED = "a number alone is in the unit beside it; another unit may be typed with it, such as 1478 in-lbf or 77 F";
 
-function amount(key, text, onchange, id) {
+// ``named``: an angle that a name holds and that nobody stated.
+function amount(key, text, onchange, id, named = "") {
   if (key === "direction") return choose([["", "–"], "forward", "reverse"], text, onchange, { id, "aria-label": key });
   const plain = UNITS[key] && text.endsWith(` ${UNITS[key]}`) ? text.slice(0, -UNITS[key].length - 1) : text,
     unit = h("span", { class: "quiet" });
@@ -78,7 +80,7 @@ function amount(key, text, onchange, id) {
     id,
     "aria-label": words(key),
     title: key === "locked_at" ? PLACE : UNITS[key] ? TYPED : undefined,
-    placeholder: key === "locked_at" ? "or mean" : undefined,
+    placeholder: named ? `${named}?` : key === "locked_at" ? "or mean" : undefined,
     oninput: () => beside(),
     onchange: () => {
       const given = field.value.trim();
@@ -92,6 +94,7 @@ function amount(key, text, onchange, id) {
 export function conditions(bag) {
   const { data, choices, wish, putIn } = bag;
   const all = data.proposal.conditions,
+    named = anglesNamed(data.proposal),
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
     asked = (key, runs) => matters(choices, key, runs.map((r) => r.quantity.value)),
     offered = ["load_torque", "temperature", "locked_at", ...(used.has("input_speed") ? [] : ["output_speed"])];
@@ -118,10 +121,11 @@ export function conditions(bag) {
       ...keys.map((key) => {
         // What is stated all the same stays to be seen.
         if (!(key in stated) && !asked(key, runs)) return saysNothing(key);
-        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text), `c-${name}-${key}`);
-        return label.tagName === "LABEL"
-          ? h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"))
-          : label;
+        const say = (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text),
+          angle = key === "locked_at" ? named[name] : undefined,
+          label = amount(key, stated[key] ?? "", say, `c-${name}-${key}`, angle);
+        if (label.tagName !== "LABEL") return label;
+        return h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"), angle ? soItIs(`${name} locked at ${angle}`, () => say(angle)) : "");
       }),
       h("label", { class: "held", title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, held.reason) : ""),
     ];

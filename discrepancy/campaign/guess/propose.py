@@ -23,7 +23,7 @@ from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
-from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize, Unplaced
 from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, written_alike
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.told_once import merged
@@ -70,7 +70,7 @@ class Proposal:
     runs: tuple[PlacedRun, ...]
     doubts: tuple[Doubt, ...]
     needs: tuple[Doubt, ...]
-    unplaced: tuple[Doubt, ...]
+    unplaced: tuple[Unplaced, ...]
     angle_of: Guess[str] | None
     named: str | None
 
@@ -232,10 +232,11 @@ def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
 
 
 def without_what_is_given(run: GuessedRun, names: set[str], wishes: Wishes) -> GuessedRun:
-    """What is given of its condition by one of its ``names`` wins over what the run itself had."""
+    """What is given of its condition by one of its ``names`` wins over what the run itself had; whose a speed is that was given is no doubt."""
     given = {key.rpartition(":")[2] for key in wishes.conditions if key.rpartition(":")[0] in names}
     speeds = any(key.endswith("put_speed") for key in given)
-    return replace(run, actual={key: text for key, text in run.actual.items() if key not in given and not (speeds and key.endswith("put_speed"))})
+    actual = {key: text for key, text in run.actual.items() if key not in given and not (speeds and key.endswith("put_speed"))}
+    return replace(run, actual=actual, doubts=tuple(d for d in run.doubts if not (speeds and isinstance(d, SpeedBySize))))
 
 
 def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[PlacedRun]:

@@ -1,0 +1,54 @@
+"""A question under In offers the answer that was guessed; a click states it, and names of conditions stay what they were."""
+
+import pytest
+
+from discrepancy.campaign.guess.propose import propose
+from discrepancy.campaign.guess.wishes import Wishes
+from workbench.confirming import answer_of
+from workbench.folder import opened
+from workbench.intake import view, wish, wishes_of
+
+LOOP = "出力トルク[N・m],ねじれ角[arcmin]\n" + "\n".join(f"{t},{0.02 * t + (0.3 if k < 11 else -0.3):.3f}" for k, t in enumerate([*range(-160, 161, 32), *range(160, -161, -32)]))
+ERROR = "出力角度[deg],角度伝達誤差[arcsec]\n" + "\n".join(f"{1.8 * k:.1f},{(7 * k) % 11}" for k in range(201))
+
+
+@pytest.fixture
+def bench(tmp_path):
+    """Loops whose names hold an angle that may be of a temperature as well, and transmission errors at speeds without a side."""
+    for place in (210, 90):
+        (tmp_path / f"ヒステリシス_入力軸固定_{place}度_1回目.csv").write_text(LOOP, encoding="utf-8")
+    for speed in (900, 1450):
+        (tmp_path / f"角度伝達誤差_100Nm_{speed}rpm_1回目.csv").write_text(ERROR.replace("\n0.0,", f"\n0.0{speed},"), encoding="utf-8")
+    return opened(tmp_path)
+
+
+def answered(folder):
+    return {d["text"]: d for d in view(folder)["proposal"]["doubts"]}
+
+
+def test_each_question_offers_what_was_guessed_and_is_settled_by_it(bench):
+    wish(bench, {"reducer": "RV20E-121"})
+    asked = answered(bench)
+    offers = {d["yes"]: d for d in asked.values() if "yes" in d}
+    assert offers.keys() == {"Yes: locked at 210 deg, 90 deg, as their names say", "Yes: it is an encoder's on the output", "Yes: of the input"} and len(asked) == 3
+    assert offers["Yes: of the input"]["guess"] == "speeds are those of the input"
+    names = list(view(bench)["proposal"]["conditions"])
+    given: dict = {"reducer": "RV20E-121", "conditions": {}}
+    for offer in offers.values():
+        given |= {k: given.get(k, {}) | v if isinstance(v, dict) else v for k, v in offer["stated"].items()}
+    wish(bench, given)
+    proposal = view(bench)["proposal"]
+    assert not proposal["doubts"] and list(proposal["conditions"]) == names
+    assert {name: stated.get("locked_at") for name, stated in proposal["conditions"].items() if "固定" in name} == {"入力軸固定_210度": "210 deg", "入力軸固定_90度": "90 deg"}
+
+
+def test_a_side_that_is_stated_of_one_speed_leaves_the_question_of_the_others(bench):
+    given = {"reducer": "RV20E-121", "conditions": {"900rpm_100N.m:input_speed": "900 rpm"}}
+    [doubt] = [d for d in propose(bench.measurements(), wishes_of(given)).doubts if "taken for the input_speed" in d.text]
+    assert doubt.text.startswith("1450 rpm is taken")
+
+
+def test_a_question_without_a_guess_offers_none(tmp_path):
+    (tmp_path / "loop_warm.csv").write_text(LOOP, encoding="utf-8")
+    proposal = propose([tmp_path], Wishes("RV20E-121", tags={"locked": "input"}))
+    assert len(proposal.unplaced) == 1 and not any(answer_of(doubt, proposal) for doubt in proposal.doubts)
