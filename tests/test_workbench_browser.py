@@ -625,6 +625,46 @@ def test_nothing_is_compared_while_something_else_is_computed(bench):
     assert told == [[True, "Diagnosing: one thing is computed at a time"], [False, ""]]
 
 
+def test_what_is_clicked_while_something_is_computed_waits_for_its_end(bench):
+    """"Which effect is missing?" answered with an error of the server."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    told = page.evaluate("""async () => {
+      const { waiting } = await import('./static/waiting.js'), begun = [], taken = Object.assign(new Error('taken'), { status: 409 });
+      let busy = '', first = true;
+      const act = (promise) => promise.catch((fault) => begun.push(fault.message));
+      const begin = async (work) => { if (work === 'late' && first) { first = false; throw taken; } begun.push(work); busy = work; };
+      const queue = waiting({ busy: () => busy, act, begin, changed: () => {} });
+      await Promise.all([queue.start('compare'), queue.start('next'), queue.start('diagnose')]);
+      const during = [queue.next, [...begun]];
+      busy = '';
+      queue.heard();
+      await queue.start('life');
+      queue.leave();
+      busy = '';
+      queue.heard();
+      // Another tab was first, which this one has not heard yet.
+      await queue.start('late');
+      const late = queue.next;
+      queue.heard();
+      await new Promise((done) => setTimeout(done, 0));
+      return [during, late, begun];
+    }""")
+    assert told == [["diagnose", ["compare"]], "late", ["compare", "diagnose", "late"]]
+    # The server's word for it is no error of what was sent.
+    folder = opened(bench.folder)
+    folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time()})
+    folder.remember("jobs/life/beat", {"state": "running", "at": time.time() + 3.0, "said": [], "tasks": []})
+    page.locator("#work", has_text="Living").wait_for()
+    asked = "async () => (await fetch('jobs/compare', { method: 'POST', body: JSON.stringify({ model: 'RV20E-121' }) })).status"
+    assert page.evaluate(asked) == 409
+    page.evaluate("async () => (await import('./static/app.js')).start('compare')")
+    assert page.locator("#waits").inner_text().startswith("then: Comparing")
+    page.get_by_role("button", name="leave it").click()
+    assert page.locator("#waits").count() == 0
+
+
 def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
     page = bench.page
     page.set_viewport_size({"width": 390, "height": 844})
