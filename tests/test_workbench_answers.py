@@ -1,5 +1,7 @@
 """A question under In offers the answer that was guessed; a click states it, and names of conditions stay what they were."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from discrepancy.campaign.guess.propose import propose
@@ -7,6 +9,7 @@ from discrepancy.campaign.guess.wishes import Wishes
 from workbench.confirming import answer_of
 from workbench.folder import opened
 from workbench.intake import view, wish, wishes_of
+from workbench.left_open import left_open
 
 LOOP = "出力トルク[N・m],ねじれ角[arcmin]\n" + "\n".join(f"{t},{0.02 * t + (0.3 if k < 11 else -0.3):.3f}" for k, t in enumerate([*range(-160, 161, 32), *range(160, -161, -32)]))
 ERROR = "出力角度[deg],角度伝達誤差[arcsec]\n" + "\n".join(f"{1.8 * k:.1f},{(7 * k) % 11}" for k in range(201))
@@ -52,3 +55,12 @@ def test_a_question_without_a_guess_offers_none(tmp_path):
     (tmp_path / "loop_warm.csv").write_text(LOOP, encoding="utf-8")
     proposal = propose([tmp_path], Wishes("RV20E-121", tags={"locked": "input"}))
     assert len(proposal.unplaced) == 1 and not any(answer_of(doubt, proposal) for doubt in proposal.doubts)
+
+
+def test_what_is_left_open_of_an_answer_is_told_once_each():
+    """Parts that look alike, one of two origins, and a direction that half a turn on shows the same."""
+    four = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1 or crank 2 at disc 2, which look alike", "other_places": ["crank 2 at disc 2"]}
+    pins = "whether it is pins off their places, or a ring clamped so, this campaign does not tell: turn the ring"
+    turned = "effects.ring_pin_errors.direction: -139.1 deg shows the same in the runs that were fitted as 40.9 deg; they do not tell which of the two it is"
+    said = left_open(SimpleNamespace(effects=[four, {"name": "drag"}], untold=[pins], warnings=[pins, turned, "another"]))
+    assert [text[:24] for text in said] == ["At which part it is (cra", "Whether it is pins off t", "effects.ring_pin_errors."]

@@ -820,6 +820,32 @@ def test_the_reducer_view_of_a_model_file_names_its_effects_and_has_their_number
     assert bench.page.locator("p.lead").inner_text().startswith("The model is RV20E-121-rigid with thermal expansion.")
 
 
+def test_where_an_effect_may_sit_as_well_stands_beside_what_is_added_and_drawn(bench):
+    """One of four lobes that look alike stood there as a fact."""
+    page, told = bench.page, "at which part it is (crank lobe errors at crank 1 at disc 1 or crank 2 at disc 2, which look alike) no other run tells"
+    text = f"""[model]
+name = "better"
+reducer = "RV20E-121"
+[effects.crank_lobe_errors]
+lobe_throw_error_1 = "3 um"
+[[steps]]
+effects = ["crank_lobe_errors.crank_1"]
+verdict = "helped"
+reason = "r"
+untold = ["{told}"]
+"""
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    page.goto(f"{bench.address}#reducer")
+    page.locator("label", has_text="reducer").locator("select").select_option("model.toml")
+    page.locator("#open-places .note", has_text=told[1:]).wait_for()
+    shown = page.evaluate("""async (open) => {
+      const { addPart } = await import('./static/better.js');
+      const answer = { model: 'm', verdict: 'one effect', effects: [{ candidates: ['crank_lobe_errors.crank_1'] }], base_off: [], confusable: [], rejected: [], open };
+      return addPart({ answer, extension: null, context: { busy: () => '' }, old: '' }).querySelector('.note').textContent;
+    }""", [told])
+    assert shown == told
+
+
 def test_a_new_reducer_is_called_so_until_it_is_saved_and_no_model_of_others_before_it_is_chosen(bench):
     """The list said RV20E-121 above another one's numbers; once saved it was the model of all views without a word."""
     page, chosen = bench.page, "document.querySelector('#view select').selectedOptions[0].textContent"

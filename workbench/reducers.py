@@ -30,6 +30,7 @@ from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
+from workbench.left_open import left_open_in
 from workbench.page_words import on_page
 from workbench.told import figure_data, page_data
 
@@ -49,7 +50,7 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        found["reducer"] = described(file) | headed(file) | {"added": added(file)}
+        found["reducer"] = described(file) | headed(file) | {"added": added(file), "open": left_open_in(file, folder)}
     return found
 
 
