@@ -6,6 +6,8 @@ import pytest
 
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.write import checked
+from fmu_src.faults import InputFault
 from workbench.confirming import answer_of
 from workbench.folder import opened
 from workbench.intake import view, wish, wishes_of
@@ -64,3 +66,17 @@ def test_what_is_left_open_of_an_answer_is_told_once_each():
     turned = "effects.ring_pin_errors.direction: -139.1 deg shows the same in the runs that were fitted as 40.9 deg; they do not tell which of the two it is"
     said = left_open(SimpleNamespace(effects=[four, {"name": "drag"}], untold=[pins], warnings=[pins, turned, "another"]))
     assert [text[:24] for text in said] == ["At which part it is (cra", "Whether it is pins off t", "effects.ring_pin_errors."]
+
+
+def test_a_known_zero_is_said_of_its_quantity_and_refused_of_what_has_none(bench):
+    """In had no field for it; angle_of of the same table stays beside it."""
+    wish(bench, {"reducer": "RV20E-121", "zeros": {"transmission_error": "absolute", "hysteresis": "absolute", "transmission_order": "absolute"}})
+    found = view(bench)
+    known = {record.quantity: record.zero_known for record in checked(propose(bench.measurements(), wishes_of(found["wishes"]))).records}
+    assert known == {"transmission_error": True, "hysteresis": True}
+    assert found["text"].count("[quantities.transmission_error]") == 1 and 'angle_of = "output"' in found["text"]
+    assert "--zero transmission_error=absolute" in found["command"]
+    assert [d["place"] for d in found["proposal"]["doubts"] if d["text"].startswith("zero transmission_order=absolute says nothing")] == ["campaign"]
+    for zeros, said in (({"wear_depth": "absolute"}, "--zero wear_depth"), ({"hysteresis": "none"}, "--zero QUANTITY none")):
+        with pytest.raises(InputFault, match=f"{said}: there is no such thing; choose from"):
+            wishes_of({"zeros": zeros})

@@ -276,6 +276,21 @@ def test_a_guess_that_is_right_is_stated_by_a_click_and_saving_says_what_stands_
     assert page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts() == names
 
 
+def test_from_where_measurements_count_is_chosen_and_mountings_get_a_column(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    page.select_option("#measured", "RV20E-121")
+    page.get_by_label("zero of hysteresis").select_option(label="known: its mean counts")
+    page.locator("pre.file", has_text='zero = "absolute"').wait_for(state="attached")
+    assert page.get_by_label("mounting", exact=True).count() == 0
+    page.locator("#mountings").select_option("apart")
+    page.get_by_label("mounting", exact=True).first.fill("2")
+    page.get_by_label("mounting", exact=True).first.press("Tab")
+    page.locator("pre.file", has_text='mounting = "2"').wait_for(state="attached")
+    page.locator("#mountings").select_option("")
+    page.get_by_label("mounting", exact=True).first.wait_for(state="detached")
+    assert "mounting = " not in page.locator("pre.file").text_content()
+
+
 def test_from_a_note_of_a_result_about_a_locked_input_a_click_leads_to_its_cell(bench, tmp_path):
     """In had such a button, Look and Diagnose told what to write and not where."""
     page, text = dropped(bench, tmp_path), "loops in 20degC: nobody says where the input was locked; state it"

@@ -2,6 +2,7 @@
 
 import { choose, h, note, table, words } from "./dom.js";
 import { anglesNamed, soItIs, yes } from "./in_yes.js";
+import { mountings } from "./in_zero.js";
 import { PLACE, matters, saysNothing, toCell } from "./to_cell.js";
 
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
@@ -98,7 +99,7 @@ export function conditions(bag) {
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
     asked = (key, runs) => matters(choices, key, runs.map((r) => r.quantity.value)),
     offered = ["load_torque", "temperature", "locked_at", ...(used.has("input_speed") ? [] : ["output_speed"])];
-  const keys = CONDITION.filter((k) => used.has(k) || (offered.includes(k) && asked(k, data.proposal.runs)));
+  const keys = CONDITION.filter((k) => used.has(k) || (k === "mounting" && bag.mountings) || (offered.includes(k) && asked(k, data.proposal.runs)));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
       names = withJoined(data.proposal, name),
@@ -139,6 +140,6 @@ export function conditions(bag) {
       { class: "quiet small" },
       `Read from names and heads of the files; what stands here wins; ${TYPED}. ${keys.includes("locked_at") ? `${PLACE}. ` : ""}Held-out conditions are never fitted: the error that counts is theirs.`,
     ),
-    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
+    h("div", { class: "panel" }, mountings(bag, used.has("mounting")), table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );
 }

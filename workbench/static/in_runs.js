@@ -5,6 +5,7 @@ import { doubtNotes } from "./doubts.js";
 import { apart, family, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
 import { soItIs } from "./in_yes.js";
+import { zeroOf } from "./in_zero.js";
 import { drop } from "./net.js";
 
 // So many files of a group are named before it is opened.
@@ -208,6 +209,7 @@ function group(bag, members) {
         ),
         first.quantity.sure ? null : [h("span", { class: "tag fair" }, "not sure"), soItIs(words(first.quantity.value), () => forAll("quantities", (name) => name, first.quantity.value))],
         tags,
+        zeroOf(bag, first.quantity.value, quantity),
         kin.length > own.length ? alike(first.quantity.value, bag) : null,
       ),
       h("label", { class: "inline small" }, "names say", pattern),
