@@ -441,7 +441,10 @@ def test_stop_asks_and_ends_nobody_by_number(tmp_path):
 # what the page is told ------------------------------------------------------------------------
 @pytest.mark.parametrize(("said", "told"), [
     ("count them, and give --pins", "count them, and give 'pins in the ring'"),
-    ("--ratio 3 with --pins 40: look at --lost-motion", "ratio 3 with pins 40: look at lost motion"),
+    ("--ratio 3 with --pins 40: look at --lost-motion", "ratio 3 with 'pins in the ring' 40: look at 'lost motion of the catalogue'"),
+    ("--known pin.radius=2: give a number with its unit, for instance --known pin.radius=3mm",
+     "pin.radius = 2 in 'Every number of its file' below: give a number with its unit, for instance 3mm"),
+    ("diameter 5 mm: must lie from 20 to 2000 mm", "'outer diameter of the housing' 5 mm: must lie from 20 to 2000 mm"),
     ("A and B. rvwear next proposes what would.", "A and B. 'Propose the next experiment' proposes what would."),
     ("correct it (rvwear extend), or see `rvwear compare`", "correct it ('Add it'), or see Look"),
     # Nothing on the page does these, and a line to type is one.
@@ -687,6 +690,11 @@ def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
     asked = {"ratio": "121", "pins": "40", "rated": "167", "known": {"pin.radius": "2mm"}, "name": "mine"}
     with pytest.raises(InputFault, match="^ratio 8100: must lie"):
         completed(folder, {**asked, "ratio": "8100"})
+    # "meet lost motion ... give known bearing.clearance=..." stood there, and the path of a file that is not there.
+    with pytest.raises(InputFault, match=r"^'take the gap of the flanks .*'lost motion of the catalogue', or type bearing.clearance or first_stage.backlash in 'Every"):
+        completed(folder, {**asked, "lost_motion": "0.1", "meets_lost_motion": True})
+    with pytest.raises(InputFault, match=r"^\[bearing\] clearance = 9000 um: "):
+        completed(folder, {**asked, "known": {"bearing.clearance": "9mm"}})
     assert completed(folder, {**asked, "save": True})["saved"] == "mine.toml"
     with pytest.raises(InputFault, match="not overwritten"):
         completed(folder, {**asked, "save": True})

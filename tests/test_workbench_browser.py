@@ -897,6 +897,12 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_by_a_box(bench):
     row = page.locator("tr", has=page.locator("[id='n-disc.equidistant_modification']"))
     assert "makes the lost motion that of the catalogue" in row.inner_text() and row.locator("input.changed").count() == 0
     assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
+    # What cannot be made says what to type, and where one types it stays.
+    page.fill("#ask-lost_motion", "0.1")
+    page.get_by_text("type bearing.clearance or first_stage.backlash in 'Every number of its file' below").wait_for()
+    assert page.locator("[id='n-bearing.clearance']").is_visible() and page.get_by_text("as it could last be made").is_visible()
+    page.fill("#ask-lost_motion", "1")
+    page.get_by_text("as it could last be made").wait_for(state="detached")
 
 
 def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
