@@ -523,6 +523,8 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert slider(Parameter("drift", "1", 0.0, -5.0, 5.0, 0.01, description="drift in a run over the mean size (0: off)"), True)["of"] == "drift in a run over the mean size"
     carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
+    # A phase error of 1.3" was told in arcsec by the diagnosis, in arcmin here.
+    assert slider(Parameter("phase", "rad", 0.0, -1e-2, 1e-2, 5e-4), True)["unit"] == "arcsec"
 
 
 def test_orders_are_shown_by_their_amplitude():
@@ -794,6 +796,16 @@ def test_a_life_of_a_model_file_is_called_after_it_and_its_command_names_it(tmp_
         f"rvwear life --reducer '{tmp_path / 'gearbox 7.toml'}' --hours 10 --set output.load_torque=100.0N.m --output {tmp_path / 'a.nc'}"
     )
     assert command(load_model("RV20E-121"), 10.0, [], tmp_path / "a.nc") == f"rvwear life --reducer RV20E-121 --hours 10 --output {tmp_path / 'a.nc'}"
+
+
+def test_a_life_runs_at_the_load_and_the_speed_of_its_fields():
+    """There was no field for the speed."""
+    from workbench.life_step import settings_of
+
+    assert settings_of({}) == [] and settings_of({"torque": "120", "speed": "900"}) == ["output.load_torque=120.0N.m", "input.speed=900.0rpm"]
+    assert settings_of({"speed": "25 Hz"}) == ["input.speed=1500.0rpm"]
+    with pytest.raises(InputFault, match="speed = -5: must lie above 0"):
+        settings_of({"speed": "-5"})
 
 
 def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):

@@ -995,7 +995,7 @@ def test_a_life_that_runs_says_what_its_hours_count_from_and_which_pass_it_is_an
     assert page.evaluate(show, "running") == [title, "pass 2, in 6 jumps: flank 2.50 µm", second, ""]
     # Gone on with after a pause nobody has the curves of the pass before.
     live["before"] = {}
-    paused = "Paused at 525 of 10,000 operating hours since new, pass 2: the life goes on from its last jump, as long as hours, torque and model stay."
+    paused = "Paused at 525 of 10,000 operating hours since new, pass 2: the life goes on from its last jump, as long as hours, torque, speed and model stay."
     assert page.evaluate(show, "stopped")[2:] == [second.replace("; dashed: pass 1, in 3", ""), paused]
     now["ended"] = True
     assert page.evaluate(show, "running")[2] == "Pass 2, in 6 jumps, is the last: the figures are those of the result, which is being written."
@@ -1064,7 +1064,7 @@ def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typ
     said = page.evaluate(
         """async (row) => {
       const { show } = await import('./static/life.js'), place = document.getElementById('view'), asked = [];
-      const given = { model: 'RV20E-121', hours: '6000', torque: '120' };
+      const given = { model: 'RV20E-121', hours: '6000', torque: '120', speed: '900' };
       const many = { ...given, samples: '4', limits: { disc_flank_um: '5' }, scatters: [row] };
       const state = { view: { model: 'RV20E-121' }, jobs: { life: { state: 'done', result: true, begun: 1, given }, ensemble: { state: 'done', result: false, begun: 2, given: many } } };
       const context = { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '', act: (promise) => promise, start: (kind, fields) => asked.push(fields) };
@@ -1089,7 +1089,7 @@ def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typ
         row,
     )
     many = {"hours": "6000", "samples": "4", "limits": {"lost_motion_arcmin": "", "disc_flank_um": "5"}, "scatters": [row]}
-    assert said == [["6000", "120"], ["7000", "120"], ["10000", ""], [many]]
+    assert said == [["6000", "120", "900"], ["7000", "120", "900"], ["10000", "", ""], [many]]
 
 
 @pytest.mark.campaign
