@@ -27,12 +27,12 @@ export function mountings(bag, said) {
   const apart = said || bag.mountings;
   return h(
     "label",
-    { class: "inline small" },
+    { class: "inline small", title: "unit and encoders stayed in place, or one of them was taken off and put back: each mounting then has a word of its own" },
     "The zero of the encoders' angles is",
     choose(
       [
-        ["", "the same for all files: unit and encoders stayed in place"],
-        ["apart", "another one at each mounting: a word for each, as 'mounting' below"],
+        ["", "the same for all files"],
+        ["apart", "another one at each mounting, said below"],
       ],
       apart ? "apart" : "",
       (value) => {
