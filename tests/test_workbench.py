@@ -667,7 +667,7 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
     # Far beyond the rules it is a mistaken unit, here as on the command line.
-    with pytest.raises(InputFault, match=r"^stiffness 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
+    with pytest.raises(InputFault, match=r"^'torsional stiffness of the catalogue' 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
         completed(folder, {**asked, "stiffness": "212,5 Nm/deg", "save": True})
     assert not folder.models()
 
@@ -681,7 +681,7 @@ def test_a_gap_that_makes_the_lost_motion_is_no_measured_one_on_the_page(tmp_pat
     assert not gap["given"] and gap["range"].startswith("0 to ") and "--meet-lost-motion" in found["command"]
     (card,) = [card for card in found["page"]["cards"] if card["label"] == "lost motion"]
     assert float(card["value"]) == pytest.approx(1.0, rel=5e-3) and card["note"] == f"1 of the catalogue; a gap of the flanks of {float(gap['value']):.4g} µm is taken, which makes it that"
-    with pytest.raises(InputFault, match="^meet lost motion and known disc"):
+    with pytest.raises(InputFault, match="^'take the gap of the flanks .*' is ticked and disc.equidistant_modification is typed in 'Every number"):
         completed(folder, {**asked, "known": {"disc.equidistant_modification": "3um"}})
 
 

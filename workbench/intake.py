@@ -48,7 +48,8 @@ def choices() -> dict[str, Any]:
     """What there is to choose from: quantities with their roles, units, keys of a condition, words of tags."""
     return {
         "quantities": {
-            q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags], "matter": keys_that_matter(q), "zero": q.name in WITH_ZERO,
+            q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags], "matter": keys_that_matter(q),
+                     "zero": q.name in WITH_ZERO,
                      "roles": {role: {"title": TITLES.get(role, role.replace("_", " ")), "description": key.description,
                                       "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
             for q in QUANTITIES.values()

@@ -19,6 +19,7 @@ from fmu_src.faults import InputFault
 from fmu_src.source_hash import ROOT
 from workbench.folder import Folder
 
+
 class Taken(InputFault):
     """Something else is being computed: the page waits for its end and asks again."""
 

@@ -1,5 +1,6 @@
 """What is named or added stands at one of several places, or comes from one of several things, that look alike: said wherever it is shown as a fact."""
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from fmu_src.faults import InputFault
@@ -30,14 +31,12 @@ def left_open_in(file: "ModelFile", folder: Folder) -> list[str]:
     texts = parts_untold_before(file)
     # Reading a campaign takes seconds.
     if file.effects and any(pair.within and name.startswith(pair.within) for pair in PAIRS for name in file.values()):
-        try:
+        # Without one nothing was measured that could tell, and In says what is wrong with it.
+        with suppress(InputFault):
             texts += origins_untold((), file, load_campaign(folder.root))
-        except InputFault:
-            # Without one nothing was measured that could tell, and In says what is wrong with it.
-            pass
     return [sentence(text) for text in dict.fromkeys(texts)]
 
 
 def sentence(text: str) -> str:
     # A name stays what it is.
-    return on_page(f"{text}." if "." in text.split()[0] else f"{text[0].upper()}{text[1:]}.")
+    return on_page(f"{text}." if "." in text.partition(" ")[0] else f"{text[0].upper()}{text[1:]}.")
