@@ -14,11 +14,13 @@ from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.other_places import as_shown
 from fmu_src.table import Table
 
+SAME = "shows the same in the runs that were fitted"
+
 
 def sign_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[str]:
     """A sentence for each named effect whose sign the fitted runs do not tell; two predictions each."""
     return [
-        f"{member.name}: with the opposite sign it shows the same in the runs that were fitted; they tell its size, not which way"
+        f"{member.name}: with the opposite sign it {SAME}; they tell its size, not which way"
         for member in alone(effects, found)
         if either_sign(member, found)
     ]
@@ -38,7 +40,7 @@ def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables
             if same({p.name: other}):
                 here, there = (f"{math.degrees(angle):.1f} deg" for angle in (member.fit.values[p.name], other))
                 found_doubts.append(
-                    f"{told_name(p.name, tables)}: {there} shows the same in the runs that were fitted as {here}; they do not tell which of the two it is"
+                    f"{told_name(p.name, tables)}: {there} {SAME} as {here}; they do not tell which of the two it is"
                 )
     return found_doubts
 

@@ -7,6 +7,8 @@ const NARROW = 520, LETTER = 6.2, LINE = 13;
 const SHARE = 0.32, MARGIN = 10;
 // What the line beside a name of the legend takes, with the edges.
 const KEY = 60;
+// Ticks and the gap below them, above a title; a row of a legend; and the lowest that curves become.
+const UNDER = 42, ROW = 19, LEAST = 80;
 
 // Words of a name in lines of so many letters at most; what is one long word is cut where it has a sign.
 function folded(name, letters) {
@@ -68,10 +70,24 @@ function keyed(data, layout, width) {
   return data.map((trace) => (trace.name?.length > letters ? { ...trace, name: folded(trace.name, letters).join("<br>") } : trace));
 }
 
+// A legend below, moved down where the title of the axis above it would lie in it; what it takes itself makes the curves lower.
+function cleared(data, layout, width, height) {
+  const legend = layout.legend ?? {}, title = layout.xaxis?.title?.text;
+  if (legend.orientation !== "h" || layout.showlegend === false || !(legend.y < 0) || !title || layout.xaxis.showticklabels === false) return layout;
+  const { l = 80, r = 80, t = 100, b = 80 } = layout.margin ?? {};
+  const names = data.filter((trace) => trace.name && trace.showlegend !== false).map((trace) => trace.name.split("<br>"));
+  const beside = Math.max(1, Math.floor((width - l - r) / (KEY + LETTER * Math.max(1, ...names.flat().map((line) => line.length)))));
+  const rows = Math.ceil(names.length / beside) * Math.max(1, ...names.map((lines) => lines.length));
+  const needed = UNDER + LINE * String(title).split("<br>").length, high = Math.max(LEAST, height - t - Math.max(b, needed + ROW * rows));
+  return -legend.y * high < needed ? { ...layout, legend: { ...legend, y: -needed / high } } : layout;
+}
+
 // What the card of this width shows: {data, layout, height}; what needs nothing stays as it is.
 function narrowed(figure, data, layout, width) {
   const shown = byNames(figure, data, layout, width);
-  return width < NARROW ? { ...shown, data: keyed(shown.data, shown.layout, width), layout: titled(shown.layout, width, shown.height) } : shown;
+  if (width >= NARROW) return shown;
+  const keys = keyed(shown.data, shown.layout, width);
+  return { ...shown, data: keys, layout: cleared(keys, titled(shown.layout, width, shown.height), width, shown.height) };
 }
 
 // The same, where names stand beside rows or below bars.

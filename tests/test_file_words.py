@@ -48,8 +48,13 @@ def test_other_texts_do_so_too(said):
     assert LINE.search(said) and not LINE.search(on_page(said))
 
 
-def test_what_in_has_no_field_for_keeps_its_line_and_says_so():
+def test_a_zero_that_is_known_is_chosen_in_its_field():
     run = Record("r", "transmission_error", "rad", "c", 1, 1e-4 + 1e-5 * np.arange(9.0), {}, {})
     [(_, remedy)] = unused_means([run])
     told = on_page(remedy)
-    assert 'write zero = "absolute" into campaign.toml' in told and "In has no field for it" in told
+    assert not LINE.search(told) and "choose 'known: its mean counts' as 'zero' of its files under In" in told
+
+
+def test_what_in_has_no_field_for_keeps_its_line_and_says_so():
+    told = on_page('state noise = "..." in its runs')
+    assert 'write noise = "..." into campaign.toml' in told and "In has no field for it" in told

@@ -120,6 +120,22 @@ def test_titles_of_axes_and_names_of_a_legend_fold_on_a_narrow_card(chromium, fi
     assert "<br>" not in told[1][1] + told[1][3] and told[1][2] == 60
 
 
+def test_a_legend_below_leaves_room_for_the_title_of_its_axis_on_a_narrow_card(chromium, file):
+    """The title of an axis lay in the legend on a telephone, and the tag of a claim went over the edge."""
+    curves = [Curve(name, np.array([0.0, 1.0]), np.array([0.0, k])) for k, name in enumerate(("worn, 10,000 h, of the disc alone", "ideal", "modified by the source"))]
+    place = file.with_name("legend.html")
+    drawn = chart("legend", "T", "c", curves, "pressure angle between the force and the speed of the disc [deg]", "y")
+    place.write_text(rendered_sections(Page("k", "t", "", "", [], [Section("s", "S", "", [drawn], [])], [])), encoding="utf-8")
+    page = chromium.new_page(viewport={"width": 390, "height": 844})
+    page.goto(place.as_uri())
+    page.wait_for_selector("#plot-legend .legend .traces")
+    title, legend = (page.locator(f"#plot-legend {part}").first.bounding_box() for part in (".xtitle", ".legend"))
+    assert title["y"] + title["height"] <= legend["y"]
+    tag = page.evaluate("""() => { document.body.insertAdjacentHTML('beforeend', '<p class="fair" style="width: 90px"><span class="tag">reproduced under a stated condition</span></p>');
+        return document.body.lastElementChild.firstElementChild.getBoundingClientRect().width; }""")
+    assert tag <= 90
+
+
 def test_ticks_of_small_numbers_have_a_power_with_its_factor(chromium, file):
     """"5e-09" stood at an axis."""
     curve = Curve("c", np.array([0.0, 1.0]), np.array([0.0, 8e-9]))

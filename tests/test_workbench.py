@@ -441,7 +441,10 @@ def test_stop_asks_and_ends_nobody_by_number(tmp_path):
 # what the page is told ------------------------------------------------------------------------
 @pytest.mark.parametrize(("said", "told"), [
     ("count them, and give --pins", "count them, and give 'pins in the ring'"),
-    ("--ratio 3 with --pins 40: look at --lost-motion", "ratio 3 with pins 40: look at lost motion"),
+    ("--ratio 3 with --pins 40: look at --lost-motion", "ratio 3 with 'pins in the ring' 40: look at 'lost motion of the catalogue'"),
+    ("--known pin.radius=2: give a number with its unit, for instance --known pin.radius=3mm",
+     "pin.radius = 2 in 'Every number of its file' below: give a number with its unit, for instance 3mm"),
+    ("diameter 5 mm: must lie from 20 to 2000 mm", "'outer diameter of the housing' 5 mm: must lie from 20 to 2000 mm"),
     ("A and B. rvwear next proposes what would.", "A and B. 'Propose the next experiment' proposes what would."),
     ("correct it (rvwear extend), or see `rvwear compare`", "correct it ('Add it'), or see Look"),
     # Nothing on the page does these, and a line to type is one.
@@ -520,6 +523,8 @@ def test_a_slider_reaches_as_far_as_a_bench_is_likely_to_meet():
     assert slider(Parameter("drift", "1", 0.0, -5.0, 5.0, 0.01, description="drift in a run over the mean size (0: off)"), True)["of"] == "drift in a run over the mean size"
     carried = slider(around(Parameter("expansion", "1/K", 8e-6, -1e-4, 1e-4, 5e-7, 1), 0.0), True)
     assert carried["low"] < 0.0 < carried["off"] < carried["high"]
+    # A phase error of 1.3" was told in arcsec by the diagnosis, in arcmin here.
+    assert slider(Parameter("phase", "rad", 0.0, -1e-2, 1e-2, 5e-4), True)["unit"] == "arcsec"
 
 
 def test_orders_are_shown_by_their_amplitude():
@@ -662,7 +667,7 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
     # Far beyond the rules it is a mistaken unit, here as on the command line.
-    with pytest.raises(InputFault, match=r"^stiffness 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
+    with pytest.raises(InputFault, match=r"^'torsional stiffness of the catalogue' 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
         completed(folder, {**asked, "stiffness": "212,5 Nm/deg", "save": True})
     assert not folder.models()
 
@@ -676,7 +681,7 @@ def test_a_gap_that_makes_the_lost_motion_is_no_measured_one_on_the_page(tmp_pat
     assert not gap["given"] and gap["range"].startswith("0 to ") and "--lost-motion 1 " in found["command"]
     (card,) = [card for card in found["page"]["cards"] if card["label"] == "lost motion"]
     assert float(card["value"]) == pytest.approx(1.0, rel=5e-3) and card["note"] == f"1 of the catalogue; taken for it: {gap['name']} = {float(gap['value']):.3g} µm"
-    with pytest.raises(InputFault, match="^meet lost motion and known disc"):
+    with pytest.raises(InputFault, match="^'refuse where no gap.*' is ticked and disc.equidistant_modification is typed in 'Every number"):
         completed(folder, {**asked, "known": {"disc.equidistant_modification": "3um"}})
 
 
@@ -687,6 +692,11 @@ def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
     asked = {"ratio": "121", "pins": "40", "rated": "167", "known": {"pin.radius": "2mm"}, "name": "mine"}
     with pytest.raises(InputFault, match="^ratio 8100: must lie"):
         completed(folder, {**asked, "ratio": "8100"})
+    # "meet lost motion ... give known bearing.clearance=..." stood there, and the path of a file that is not there.
+    with pytest.raises(InputFault, match=r"^'refuse where no gap.*'lost motion of the catalogue', or type bearing.clearance or first_stage.backlash in 'Every"):
+        completed(folder, {**asked, "lost_motion": "0.1", "meets_lost_motion": True})
+    with pytest.raises(InputFault, match=r"^\[bearing\] clearance = 9000 um: "):
+        completed(folder, {**asked, "known": {"bearing.clearance": "9mm"}})
     assert completed(folder, {**asked, "save": True})["saved"] == "mine.toml"
     with pytest.raises(InputFault, match="not overwritten"):
         completed(folder, {**asked, "save": True})
@@ -786,6 +796,16 @@ def test_a_life_of_a_model_file_is_called_after_it_and_its_command_names_it(tmp_
         f"rvwear life --reducer '{tmp_path / 'gearbox 7.toml'}' --hours 10 --set output.load_torque=100.0N.m --output {tmp_path / 'a.nc'}"
     )
     assert command(load_model("RV20E-121"), 10.0, [], tmp_path / "a.nc") == f"rvwear life --reducer RV20E-121 --hours 10 --output {tmp_path / 'a.nc'}"
+
+
+def test_a_life_runs_at_the_load_and_the_speed_of_its_fields():
+    """There was no field for the speed."""
+    from workbench.life_step import settings_of
+
+    assert settings_of({}) == [] and settings_of({"torque": "120", "speed": "900"}) == ["output.load_torque=120.0N.m", "input.speed=900.0rpm"]
+    assert settings_of({"speed": "25 Hz"}) == ["input.speed=1500.0rpm"]
+    with pytest.raises(InputFault, match="speed = -5: must lie above 0"):
+        settings_of({"speed": "-5"})
 
 
 def test_of_two_starts_at_once_one_counts(tmp_path, monkeypatch):

@@ -242,6 +242,55 @@ def test_from_the_doubt_about_a_locked_input_a_click_leads_to_its_cell_where_mea
     assert 'locked_at = "mean"' in (bench.folder / "campaign.toml").read_text(encoding="utf-8")
 
 
+def test_a_guess_that_is_right_is_stated_by_a_click_and_saving_says_what_stands_open(bench, tmp_path):
+    """The field was empty although names hold the angle, saving went on without a word, and a right guess could not be stated as it is."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    paths = [loop_file(tmp_path / f"Schleife_{place}Grad_1.csv", 200 + place, 400.0) for place in (40, 300)]
+    for path in paths:
+        path.write_text(path.read_text(encoding="utf-8").replace("Verdrehung [arcmin]", "Lage"), encoding="utf-8")
+    page.set_input_files("#files", [str(path) for path in paths])
+    page.get_by_text("2 runs in 2 files, 2 conditions").wait_for()
+    page.select_option("#measured", "RV20E-121")
+    page.locator("#save:enabled").wait_for()
+    names = page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts()
+    told = page.locator("#open")
+    assert "where the input was locked in 300Grad, 40Grad: loops are predicted as the mean over a turn" in told.inner_text()
+    assert "what else is not sure above is taken as it stands" in told.inner_text()
+    # A unit, a tag, and the angles that names hold.
+    page.get_by_role("button", name=re.compile("so it is: Lage is value")).click()
+    page.locator("td.reason", has_text="unit: given").wait_for()
+    page.get_by_role("button", name="so it is: locked input").click()
+    page.get_by_role("button", name="so it is: locked input").wait_for(state="detached")
+    assert page.get_by_placeholder("40 deg?").count() == 1
+    page.get_by_role("button", name="Yes: locked at 300 deg, 40 deg, as their names say").click()
+    told.wait_for(state="detached")
+    assert [one.input_value() for one in page.get_by_label("locked at", exact=True).all()] == ["300", "40"]
+    assert page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts() == names
+    # The same said of the numbers in the names leaves the conditions their names.
+    page.get_by_label("locked at", exact=True).first.fill("")
+    page.get_by_label("locked at", exact=True).first.press("Tab")
+    page.get_by_label("numbers in the names").select_option(label="input locked at [°]")
+    told.wait_for(state="detached")
+    assert page.locator("tr", has=page.get_by_label("held out")).locator("b").all_inner_texts() == names
+
+
+def test_from_where_measurements_count_is_chosen_and_mountings_get_a_column(bench, tmp_path):
+    page = dropped(bench, tmp_path)
+    page.select_option("#measured", "RV20E-121")
+    page.get_by_label("zero of hysteresis").select_option(label="known: its mean counts")
+    page.locator("pre.file", has_text='zero = "absolute"').wait_for(state="attached")
+    assert page.get_by_label("mounting", exact=True).count() == 0
+    page.locator("#mountings").select_option("apart")
+    page.get_by_label("mounting", exact=True).first.fill("2")
+    page.get_by_label("mounting", exact=True).first.press("Tab")
+    page.locator("pre.file", has_text='mounting = "2"').wait_for(state="attached")
+    page.locator("#mountings").select_option("")
+    page.get_by_label("mounting", exact=True).first.wait_for(state="detached")
+    assert "mounting = " not in page.locator("pre.file").text_content()
+
+
 def test_from_a_note_of_a_result_about_a_locked_input_a_click_leads_to_its_cell(bench, tmp_path):
     """In had such a button, Look and Diagnose told what to write and not where."""
     page, text = dropped(bench, tmp_path), "loops in 20degC: nobody says where the input was locked; state it"
@@ -591,6 +640,46 @@ def test_nothing_is_compared_while_something_else_is_computed(bench):
     assert told == [[True, "Diagnosing: one thing is computed at a time"], [False, ""]]
 
 
+def test_what_is_clicked_while_something_is_computed_waits_for_its_end(bench):
+    """"Which effect is missing?" answered with an error of the server."""
+    page = bench.page
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    told = page.evaluate("""async () => {
+      const { waiting } = await import('./static/waiting.js'), begun = [], taken = Object.assign(new Error('taken'), { status: 409 });
+      let busy = '', first = true;
+      const act = (promise) => promise.catch((fault) => begun.push(fault.message));
+      const begin = async (work) => { if (work === 'late' && first) { first = false; throw taken; } begun.push(work); busy = work; };
+      const queue = waiting({ busy: () => busy, act, begin, changed: () => {} });
+      await Promise.all([queue.start('compare'), queue.start('next'), queue.start('diagnose')]);
+      const during = [queue.next, [...begun]];
+      busy = '';
+      queue.heard();
+      await queue.start('life');
+      queue.leave();
+      busy = '';
+      queue.heard();
+      // Another tab was first, which this one has not heard yet.
+      await queue.start('late');
+      const late = queue.next;
+      queue.heard();
+      await new Promise((done) => setTimeout(done, 0));
+      return [during, late, begun];
+    }""")
+    assert told == [["diagnose", ["compare"]], "late", ["compare", "diagnose", "late"]]
+    # The server's word for it is no error of what was sent.
+    folder = opened(bench.folder)
+    folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time()})
+    folder.remember("jobs/life/beat", {"state": "running", "at": time.time() + 3.0, "said": [], "tasks": []})
+    page.locator("#work", has_text="Living").wait_for()
+    asked = "async () => (await fetch('jobs/compare', { method: 'POST', body: JSON.stringify({ model: 'RV20E-121' }) })).status"
+    assert page.evaluate(asked) == 409
+    page.evaluate("async () => (await import('./static/app.js')).start('compare')")
+    assert page.locator("#waits").inner_text().startswith("then: Comparing")
+    page.get_by_role("button", name="leave it").click()
+    assert page.locator("#waits").count() == 0
+
+
 def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
     page = bench.page
     page.set_viewport_size({"width": 390, "height": 844})
@@ -746,6 +835,32 @@ def test_the_reducer_view_of_a_model_file_names_its_effects_and_has_their_number
     assert bench.page.locator("p.lead").inner_text().startswith("The model is RV20E-121-rigid with thermal expansion.")
 
 
+def test_where_an_effect_may_sit_as_well_stands_beside_what_is_added_and_drawn(bench):
+    """One of four lobes that look alike stood there as a fact."""
+    page, told = bench.page, "at which part it is (crank lobe errors at crank 1 at disc 1 or crank 2 at disc 2, which look alike) no other run tells"
+    text = f"""[model]
+name = "better"
+reducer = "RV20E-121"
+[effects.crank_lobe_errors]
+lobe_throw_error_1 = "3 um"
+[[steps]]
+effects = ["crank_lobe_errors.crank_1"]
+verdict = "helped"
+reason = "r"
+untold = ["{told}"]
+"""
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    page.goto(f"{bench.address}#reducer")
+    page.locator("label", has_text="reducer").locator("select").select_option("model.toml")
+    page.locator("#open-places .note", has_text=told[1:]).wait_for()
+    shown = page.evaluate("""async (open) => {
+      const { addPart } = await import('./static/better.js');
+      const answer = { model: 'm', verdict: 'one effect', effects: [{ candidates: ['crank_lobe_errors.crank_1'] }], base_off: [], confusable: [], rejected: [], open };
+      return addPart({ answer, extension: null, context: { busy: () => '' }, old: '' }).querySelector('.note').textContent;
+    }""", [told])
+    assert shown == told
+
+
 def test_a_new_reducer_is_called_so_until_it_is_saved_and_no_model_of_others_before_it_is_chosen(bench):
     """The list said RV20E-121 above another one's numbers; once saved it was the model of all views without a word."""
     page, chosen = bench.page, "document.querySelector('#view select').selectedOptions[0].textContent"
@@ -788,6 +903,12 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_and_a_box_refuses_one_th
     row = page.locator("tr", has=page.locator("[id='n-disc.equidistant_modification']"))
     assert "makes the lost motion that of the catalogue" in row.inner_text() and row.locator("input.changed").count() == 0
     assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
+    # What cannot be made says what to type, and where one types it stays.
+    page.fill("#ask-lost_motion", "0.1")
+    page.get_by_text("type bearing.clearance or first_stage.backlash in 'Every number of its file' below").wait_for()
+    assert page.locator("[id='n-bearing.clearance']").is_visible() and page.get_by_text("as it could last be made").is_visible()
+    page.fill("#ask-lost_motion", "1")
+    page.get_by_text("as it could last be made").wait_for(state="detached")
 
 
 def test_a_view_that_was_left_draws_nothing_into_the_next_one(bench, tmp_path):
@@ -880,7 +1001,7 @@ def test_a_life_that_runs_says_what_its_hours_count_from_and_which_pass_it_is_an
     assert page.evaluate(show, "running") == [title, "pass 2, in 6 jumps: flank 2.50 µm", second, ""]
     # Gone on with after a pause nobody has the curves of the pass before.
     live["before"] = {}
-    paused = "Paused at 525 of 10,000 operating hours since new, pass 2: the life goes on from its last jump, as long as hours, torque and model stay."
+    paused = "Paused at 525 of 10,000 operating hours since new, pass 2: the life goes on from its last jump, as long as hours, torque, speed and model stay."
     assert page.evaluate(show, "stopped")[2:] == [second.replace("; dashed: pass 1, in 3", ""), paused]
     now["ended"] = True
     assert page.evaluate(show, "running")[2] == "Pass 2, in 6 jumps, is the last: the figures are those of the result, which is being written."
@@ -949,7 +1070,7 @@ def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typ
     said = page.evaluate(
         """async (row) => {
       const { show } = await import('./static/life.js'), place = document.getElementById('view'), asked = [];
-      const given = { model: 'RV20E-121', hours: '6000', torque: '120' };
+      const given = { model: 'RV20E-121', hours: '6000', torque: '120', speed: '900' };
       const many = { ...given, samples: '4', limits: { disc_flank_um: '5' }, scatters: [row] };
       const state = { view: { model: 'RV20E-121' }, jobs: { life: { state: 'done', result: true, begun: 1, given }, ensemble: { state: 'done', result: false, begun: 2, given: many } } };
       const context = { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => '', act: (promise) => promise, start: (kind, fields) => asked.push(fields) };
@@ -974,7 +1095,7 @@ def test_the_fields_of_a_life_are_those_of_the_run_that_is_shown_and_what_is_typ
         row,
     )
     many = {"hours": "6000", "samples": "4", "limits": {"lost_motion_arcmin": "", "disc_flank_um": "5"}, "scatters": [row]}
-    assert said == [["6000", "120"], ["7000", "120"], ["10000", ""], [many]]
+    assert said == [["6000", "120", "900"], ["7000", "120", "900"], ["10000", "", ""], [many]]
 
 
 @pytest.mark.campaign

@@ -31,7 +31,7 @@ LINES = [
     (r"leave held_out away in", r"untick 'held out' under In of"),
     (r"state scale = -1 in one of the two columns", r"type -1 as the scale of one of the two columns under In"),
     (r'state unit = (?P<units>"[^"]+"(?: or "[^"]+")*)(?: in its column)?', r"choose \g<units> as the unit of its column under In"),
-    (r'state (?P<line>zero = "absolute")(?P<where> in \[quantities\.[a-z_]+\] or in the run)', NO_FIELD),
+    (r'state zero = "absolute" in \[quantities\.[a-z_]+\] or in the run', r"choose 'known: its mean counts' as 'zero' of its files under In"),
     (r'state (?P<line>noise = "\.\.\.")(?P<where> in (?:its|the) runs)', NO_FIELD),
     (r"state (?P<line>unwrap = true)(?P<where> in its column)", NO_FIELD),
 ]  # fmt: skip

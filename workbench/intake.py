@@ -22,9 +22,11 @@ from discrepancy.campaign.quantities import FACTORS, QUANTITIES, TAGS, keys_that
 from discrepancy.campaign.repetition_words import COPY
 from discrepancy.campaign.unplaced import CODE, unplaced, unplaced_in
 from discrepancy.held_names import LOCKED_AT
+from discrepancy.problem import WITH_ZERO
 from fmu_src.faults import InputFault
 from pages.look import significant
 from reducers.library import available, named_in
+from workbench.confirming import answer_of
 from workbench.doubts import as_told, doubts
 from workbench.editing import cells
 from workbench.folder import Folder
@@ -47,6 +49,7 @@ def choices() -> dict[str, Any]:
     return {
         "quantities": {
             q.name: {"description": q.description, "unit": q.usual_unit, "tags": [*q.tags, *q.optional_tags], "matter": keys_that_matter(q),
+                     "zero": q.name in WITH_ZERO,
                      "roles": {role: {"title": TITLES.get(role, role.replace("_", " ")), "description": key.description,
                                       "units": OFFERED.get(key.unit, (key.unit,))} for role, key in roles_of(q).items()}}
             for q in QUANTITIES.values()
@@ -60,7 +63,7 @@ def choices() -> dict[str, Any]:
 def wishes_of(given: Mapping[str, Any]) -> Wishes:
     """From JSON; InputFault for a key or kind that there is not."""
     texts = {}
-    for key in ("units", "columns", "quantities", "conditions", "tags"):
+    for key in ("units", "columns", "quantities", "conditions", "tags", "zeros"):
         texts[key] = {str(name): str(value) for name, value in mapping(given, key).items() if str(value).strip()}
     texts["conditions"] = {name: with_minute(text) if name.endswith("_speed") else text for name, text in texts["conditions"].items()}
     counts = {str(column): number(steps, f"counts of {column}") for column, steps in mapping(given, "counts").items()}
@@ -71,7 +74,7 @@ def wishes_of(given: Mapping[str, Any]) -> Wishes:
         raise InputFault("names and held_out are lists")
     return Wishes(str(given["reducer"]) if given.get("reducer") else None, tuple(str(n) for n in names if str(n).strip()), texts["units"], texts["columns"],
                   counts, texts["quantities"], texts["conditions"], None if held is None else tuple(map(str, held)), texts["tags"],
-                  str(given["angle_of"]) if given.get("angle_of") else None, scales)  # fmt: skip
+                  str(given["angle_of"]) if given.get("angle_of") else None, scales, texts["zeros"])  # fmt: skip
 
 
 def mapping(given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -199,7 +202,7 @@ def view(folder: Folder) -> dict[str, Any]:
     for run, placed in zip(found["proposal"]["runs"], proposal.runs):
         run["file"] = placed.guessed.path.relative_to(folder.root).as_posix()
     for told, doubt in zip(found["proposal"]["doubts"], proposal.doubts):
-        told["text"] = on_page(told["text"])
+        told |= {"text": on_page(told["text"])} | answer_of(doubt, proposal)
         if doubt in proposal.unplaced:
             told["cell"] = [doubt.place.split(", ")[0], LOCKED_AT]
     found["columns"] = {path.relative_to(folder.root).as_posix(): columns_of(path, path.stat().st_mtime_ns) for path in files}
@@ -315,7 +318,7 @@ def command(folder: Folder, made: Proposed, wishes: Wishes) -> str:
     for pattern in wishes.names:
         words += ["--names", pattern]
     for option, pairs in (("unit", wishes.units), ("column", wishes.columns), ("scale", wishes.scales), ("counts", wishes.counts),
-                          ("quantity", wishes.quantities), ("condition", wishes.conditions), ("tag", wishes.tags)):  # fmt: skip
+                          ("quantity", wishes.quantities), ("condition", wishes.conditions), ("tag", wishes.tags), ("zero", wishes.zeros)):  # fmt: skip
         for name, value in pairs.items():
             words += [f"--{option}", f"{name}={exactly(value) if isinstance(value, float) else value}"]
     words += ["--angle-of", wishes.angle_of] if wishes.angle_of else []

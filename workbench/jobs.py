@@ -19,6 +19,11 @@ from fmu_src.faults import InputFault
 from fmu_src.source_hash import ROOT
 from workbench.folder import Folder
 
+
+class Taken(InputFault):
+    """Something else is being computed: the page waits for its end and asks again."""
+
+
 KINDS = ("compare", "diagnose", "next", "extend", "build", "export", "life", "ensemble")
 # Silent for so long, a job is gone [s].
 SILENT = 8.0
@@ -35,13 +40,13 @@ def place_of(folder: Folder, kind: str) -> Path:
 
 
 def start(folder: Folder, kind: str, given: dict[str, Any], jobs: int) -> None:
-    """InputFault where one is running already."""
+    """Taken where one is running already."""
     place = place_of(folder, kind)
     # Of two clicks at once, in two tabs, one counts.
     with STARTING:
         busy = [other for other in KINDS if status(folder, other)["state"] == RUNNING]
         if busy:
-            raise InputFault(f"{busy[0]} is being computed: stop it, or wait for its end")
+            raise Taken(f"{busy[0]} is being computed: stop it, or wait for its end")
         place.mkdir(parents=True, exist_ok=True)
         # What goes on from where it was shows what it had; anything else nothing of before.
         anew = folder.recall(f"jobs/{kind}/job").get("given") != given

@@ -9,7 +9,7 @@ from fmu_src.file_name import file_name
 from fmu_src.held_file import held
 from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from workbench.folder import Folder
-from workbench.form import exactly, number
+from workbench.form import SPEED, exactly, in_unit, number
 from workbench.told import write_json
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ PANES = (
 )  # fmt: skip
 # Until the life ends nobody goes round a turn of the output at the hour that was reached.
 LATEST = "the latest transmission error is one of earlier hours, until the life ends"
-# Of hours, and of a torque [N m].
+# Of hours, of a torque [N m] and of a speed [rpm].
 USUAL_HOURS, MOST = 10_000.0, 1e6
 
 
@@ -41,8 +41,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     file = load_model(folder.model(given))
     reducer = reducer_of_model(file)
     hours = positive(given, "hours") or USUAL_HOURS
-    torque = positive(given, "torque")
-    texts = [f"output.load_torque={torque!r}N.m"] if torque else []
+    texts = settings_of(given)
     settings = [parse_setting(text, [reducer.plant, reducer.wear]) for text in texts]
     wanted = WantedLife(reducer, settings, LifeSettings(hours))
     path = folder.root / "results" / f"{file_name(reducer.name)}_life.nc"
@@ -93,12 +92,18 @@ def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any
     }  # fmt: skip
 
 
-def positive(given: dict[str, Any], name: str) -> float | None:
-    """A number of the form; None where nothing is given."""
+def settings_of(given: dict[str, Any]) -> list[str]:
+    """Load and speed of the form, as the command takes them; what is not given stays as the file has it."""
+    torque, speed = positive(given, "torque"), positive(given, "speed", SPEED)
+    return [*([f"output.load_torque={torque!r}N.m"] if torque else []), *([f"input.speed={speed!r}{SPEED}"] if speed else [])]
+
+
+def positive(given: dict[str, Any], name: str, unit: str = "") -> float | None:
+    """A number of the form, in ``unit`` or with one of its own; None where nothing is given."""
     text = str(given.get(name) or "").strip()
     if not text:
         return None
-    value = number(text, name)
+    value = in_unit(text, unit, name) if unit else number(text, name)
     if not 0.0 < value <= MOST:
         raise InputFault(f"{name} = {text}: must lie above 0, up to {MOST:g}")
     return value

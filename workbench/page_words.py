@@ -1,7 +1,6 @@
 """Texts that commands and the page share, in the words of the page: its buttons and views in place of commands, its fields in place of options."""
 
 import re
-from collections.abc import Mapping
 
 from workbench.file_words import in_fields
 
@@ -12,22 +11,14 @@ BUTTONS = {
 }  # fmt: skip
 # A command with what it is given is a line to type, and stays.
 COMMAND = re.compile(rf"`?\brvwear ({'|'.join(sorted(BUTTONS, key=len, reverse=True))})\b(?! (?:--|\S*[./'A-Z]))`?")
-OPTION = re.compile(r"(?P<give>\bgive )?--(?P<name>[a-z][a-z-]*)")
+OPTION = re.compile(r"--(?P<name>[a-z][a-z-]*)")
 # The remedy for a scale is an option of one command, or a line of the file.
 SCALE = re.compile(r"with --scale (?P<quote>'?)(?P<column>.*?)=[\d.e+-]+(?P=quote) of rvwear campaign from, or of this column")
 
 
-def on_page(text: str, fields: Mapping[str, str] | None = None) -> str:
-    """``fields`` are labels of the form by the options that they stand for."""
+def on_page(text: str) -> str:
+    """With what an option is called, in place of the option."""
     text = in_fields(SCALE.sub(lambda m: f"typed under In as the scale of column {m['column']}, or", text))
     text = COMMAND.sub(lambda m: BUTTONS[m[1]], text)
     # A line to type has options of its own.
-    return text if "rvwear " in text else OPTION.sub(lambda m: field(m, fields or {}), text)
-
-
-def field(found: re.Match[str], fields: Mapping[str, str]) -> str:
-    """The label of what is to be given, the plain name of what is told of."""
-    key = found["name"].replace("-", "_")
-    if found["give"] and key in fields:
-        return f"give '{fields[key]}'"
-    return f"{found['give'] or ''}{key.replace('_', ' ')}"
+    return text if "rvwear " in text else OPTION.sub(lambda m: m["name"].replace("-", " "), text)

@@ -1,6 +1,7 @@
 """Reducer: one of the library, a file of the folder, or completed from a few numbers; drawn to scale, every number with unit, source and range."""
 
 import math
+import re
 import shlex
 import tomllib
 from collections.abc import Mapping
@@ -32,7 +33,8 @@ from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
 from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
-from workbench.page_words import on_page
+from workbench.form_words import in_form
+from workbench.left_open import left_open_in
 from workbench.told import figure_data, page_data
 
 # What the form asks for: name, what it is, unit, whether it must be given.
@@ -51,7 +53,7 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        found["reducer"] = described(file) | headed(file) | {"added": added(file)}
+        found["reducer"] = described(file) | headed(file) | {"added": added(file), "open": left_open_in(file, folder)}
     return found
 
 
@@ -148,7 +150,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
         text = text_of(completion, name)
         reducer = reducer_of(tomllib.loads(text), folder.root / f"{name}.toml")
     except InputFault as fault:
-        raise InputFault(plainly(str(fault))) from None
+        # The file that it would be is not there yet.
+        raise InputFault(plainly(re.sub(rf"^{re.escape(str(folder.root))}/\S+\.toml: ", "", str(fault)))) from None
     saved = ""
     if given.get("save"):
         place = folder.inside(f"{name}.toml")
@@ -216,4 +219,4 @@ def rows_of(completion: Completion) -> list[dict[str, Any]]:
 
 def plainly(text: str) -> str:
     """The fault of an option in the words of the form."""
-    return on_page(text, {name: label for name, label, _, _ in ASKED})
+    return in_form(text, {name: label for name, label, _, _ in ASKED})

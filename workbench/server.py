@@ -255,7 +255,7 @@ def said(handler: Handler) -> Handler:
         try:
             return await handler(request)
         except (InputFault, RunFault) as fault:
-            return JSONResponse({"fault": on_page(str(fault))}, 400)
+            return JSONResponse({"fault": on_page(str(fault))}, 409 if isinstance(fault, jobs.Taken) else 400)
         except OSError as problem:
             return JSONResponse({"fault": f"{problem}; look at the folder and its disk"}, 400)
         except Exception as problem:  # noqa: BLE001 - a fault of the program is said, and the server goes on

@@ -14,6 +14,7 @@ from fmu_src.progress import task
 from workbench.doubts import apart, cells_of, in_page_words
 from workbench.ensemble_step import ensemble
 from workbench.folder import CAMPAIGN, MODEL, Folder
+from workbench.left_open import left_open, sentence
 from workbench.life_step import life
 from workbench.makers import makers
 from workbench.page_words import on_page
@@ -136,7 +137,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,
-        "untold": [on_page(f"{text[0].upper()}{text[1:]}.") for text in answer.untold],
+        "untold": [sentence(text) for text in answer.untold], "open": left_open(answer),
         "alike": told_apart_by(answer, effect_title),
         "base_off": [{"name": e.name, "text": with_minus(text)} for e, text in zip(off, base_texts(answer))], "left": in_words(left_text(answer)),
         "sizes": left_sizes(answer, signal_title),

@@ -192,7 +192,8 @@ def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
         low, high = -math.pi, math.pi
     if p.counts:
         low, high = 1.0, p.upper
-    scale = of_parameter(max(abs(low), abs(high)), p.unit, p.is_direction)
+    # An angle is told in the unit of its usual size, as a diagnosis tells what it finds, not in that of how far the slider reaches.
+    scale = of_parameter(p.scale if p.unit == "rad" else max(abs(low), abs(high)), p.unit, p.is_direction)
     plain = p.description.removesuffix(" (0: off)")
     return {
         "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(p.off),

@@ -47,6 +47,8 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
         ("--tag", "KEY=WORD", "what measurements are of: locked=input or output; surface=flank, pin, inner_race or outer_race; disc=1 ..."),
+        ("--zero", "QUANTITY=absolute", "the zero of transmission_error, hysteresis or transmission_order is known, so that its mean counts"
+         " (default: free, it is taken off)"),
     ):
         command.add_argument(option, action="append", default=[], metavar=form, help=text)
     command.add_argument(
@@ -118,7 +120,7 @@ def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     words = ["rvwear", "campaign", "from", *in_short(options.files)]
     for option in ("output", "reducer", "angle-of"):
         words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
-    for option in ("names", "unit", "column", "scale", "counts", "quantity", "condition", "tag"):
+    for option in ("names", "unit", "column", "scale", "counts", "quantity", "condition", "tag", "zero"):
         words += [word for given in getattr(options, option) for word in (f"--{option}", given)]
     if options.held_out is not None:
         words += ["--held-out", *options.held_out]
@@ -155,7 +157,7 @@ def wishes_of(options: argparse.Namespace, reducer: str | None) -> "Wishes":
     return Wishes(
         reducer, tuple(options.names), pairs("--unit", options.unit), pairs("--column", options.column), {c: float(n) for c, n in counts.items()}, quantities,
         pairs("--condition", options.condition), None if options.held_out is None else tuple(options.held_out), pairs("--tag", options.tag),
-        options.angle_of, scales,
+        options.angle_of, scales, pairs("--zero", options.zero),
     )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 import { choose, clear, duration, h, note } from "./dom.js";
 import { post } from "./net.js";
 import { recolour } from "./plot.js";
+import { waiting } from "./waiting.js";
 
 const VIEWS = { in: "In", look: "Look", diagnose: "Diagnose", try: "Try", reducer: "Reducer", life: "Life" };
 const NAMES = Object.keys(VIEWS);
@@ -137,8 +138,10 @@ function busy() {
   return running ? `${WORK[running[0]]}: one thing is computed at a time; wait for its end, or stop it above` : "";
 }
 
-export async function start(kind, given = {}) {
-  return act(post(`jobs/${kind}`, { model: context.model(), ...given }).then(heard));
+// What is clicked while something is computed waits for its end.
+const queue = waiting({ busy, act, begin: ({ kind, given }) => post(`jobs/${kind}`, given).then(heard), changed: () => showWork(context.state.jobs) });
+export function start(kind, given = {}) {
+  return queue.start({ kind, given: { model: context.model(), ...given } });
 }
 
 // The model that all views are about, in every tab.
@@ -178,6 +181,7 @@ function showWork(jobs) {
     h("span", { class: "doing", title: [doing, said && `so far: ${said}`].filter(Boolean).join("\n") }, doing, said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
+    queue.next ? h("span", { id: "waits" }, `then: ${WORK[queue.next.kind]} `, h("button", { type: "button", class: "plainly", onclick: queue.leave }, "leave it")) : null,
   );
 }
 
@@ -187,6 +191,7 @@ function heard(state) {
   document.getElementById("folder").textContent = state.name;
   document.getElementById("folder").title = state.folder;
   showWork(state.jobs);
+  queue.heard();
   if (first) open(wanted());
   else current()?.update?.(state);
   return state;

@@ -1,6 +1,6 @@
 // After the diagnosis: what to measure next, the effect added, how the error fell, the units built.
 
-import { choose, command, effectName, h, number, table, words } from "./dom.js";
+import { choose, command, effectName, h, note, number, table, words } from "./dom.js";
 import { cards, sections } from "./page.js";
 import { alike, offered, refusal } from "./refused.js";
 import { asked } from "./to_cell.js";
@@ -101,6 +101,8 @@ export function addPart(bag) {
       { class: "quiet small" },
       "It is fitted to the runs that are not held out and judged on those that are; it stays only if their error falls. The model is model.toml in the folder.",
     ),
+    // It is added at one of these places, and is no surer there than at the others.
+    (answer.open ?? []).map((text) => note(text)),
     h(
       "div",
       { class: "row" },

@@ -6,6 +6,7 @@ import { conditionCells, runCells } from "./in_cells.js";
 import { conditions, questions } from "./in_conditions.js";
 import { asides, runs } from "./in_runs.js";
 import { saveRow } from "./in_save.js";
+import { filesOf } from "./dropped_files.js";
 import { drop, get, post, put } from "./net.js";
 import { arrive, toCell } from "./to_cell.js";
 
@@ -141,6 +142,8 @@ export function show(root, context) {
     faults,
     load,
     saving: false,
+    // Whether each condition may have a mounting of its own.
+    mountings: false,
     // Quantities of which all files are corrected alike.
     together: new Set(),
     redraw: () => draw(),
@@ -329,24 +332,4 @@ export function show(root, context) {
       count = state.files;
     },
   };
-}
-
-// Files of what was dropped, folders opened.
-async function filesOf(transfer) {
-  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
-  if (!entries.length) return [...transfer.files];
-  const found = [];
-  const walk = async (entry) => {
-    if (entry.isFile) found.push(await new Promise((done, failed) => entry.file(done, failed)));
-    else {
-      const reader = entry.createReader();
-      for (;;) {
-        const some = await new Promise((done, failed) => reader.readEntries(done, failed));
-        if (!some.length) break;
-        for (const one of some) await walk(one);
-      }
-    }
-  };
-  for (const entry of entries) await walk(entry);
-  return found;
 }

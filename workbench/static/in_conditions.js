@@ -1,6 +1,8 @@
 // Conditions of the dropped files: what is needed, what is not sure, and the table of their numbers.
 
 import { choose, h, note, table, words } from "./dom.js";
+import { anglesNamed, soItIs, yes } from "./in_yes.js";
+import { mountings } from "./in_zero.js";
 import { PLACE, matters, saysNothing, toCell } from "./to_cell.js";
 
 const CONDITION = ["output_speed", "input_speed", "load_torque", "temperature", "hours", "locked_at", "direction", "mounting"];
@@ -52,7 +54,7 @@ export function questions(bag) {
           "details",
           { open: unsettled && doubts.length < 6 },
           h("summary", {}, unsettled ? `${doubts.length} not sure` : `saved with ${doubts.length} guess${doubts.length === 1 ? "" : "es"} that ${doubts.length === 1 ? "was" : "were"} not sure`),
-          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text} `, d.cell ? toCell(d.cell) : ""])),
+          doubts.map((d) => note([h("b", {}, d.place), `: ${d.text} `, yes(d, wish), " ", d.cell ? toCell(d.cell) : ""])),
         )
       : null,
   ];
@@ -62,7 +64,8 @@ export function questions(bag) {
 const NUMBER = /^[-+]?[\d.,]+(e[-+]?\d+)?$/i;
 const TYPED = "a number alone is in the unit beside it; another unit may be typed with it, such as 1478 in-lbf or 77 F";
 
-function amount(key, text, onchange, id) {
+// ``named``: an angle that a name holds and that nobody stated.
+function amount(key, text, onchange, id, named = "") {
   if (key === "direction") return choose([["", "–"], "forward", "reverse"], text, onchange, { id, "aria-label": key });
   const plain = UNITS[key] && text.endsWith(` ${UNITS[key]}`) ? text.slice(0, -UNITS[key].length - 1) : text,
     unit = h("span", { class: "quiet" });
@@ -78,7 +81,7 @@ function amount(key, text, onchange, id) {
     id,
     "aria-label": words(key),
     title: key === "locked_at" ? PLACE : UNITS[key] ? TYPED : undefined,
-    placeholder: key === "locked_at" ? "or mean" : undefined,
+    placeholder: named ? `${named}?` : key === "locked_at" ? "or mean" : undefined,
     oninput: () => beside(),
     onchange: () => {
       const given = field.value.trim();
@@ -92,10 +95,11 @@ function amount(key, text, onchange, id) {
 export function conditions(bag) {
   const { data, choices, wish, putIn } = bag;
   const all = data.proposal.conditions,
+    named = anglesNamed(data.proposal),
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
     asked = (key, runs) => matters(choices, key, runs.map((r) => r.quantity.value)),
     offered = ["load_torque", "temperature", "locked_at", ...(used.has("input_speed") ? [] : ["output_speed"])];
-  const keys = CONDITION.filter((k) => used.has(k) || (offered.includes(k) && asked(k, data.proposal.runs)));
+  const keys = CONDITION.filter((k) => used.has(k) || (k === "mounting" && bag.mountings) || (offered.includes(k) && asked(k, data.proposal.runs)));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
       names = withJoined(data.proposal, name),
@@ -118,10 +122,11 @@ export function conditions(bag) {
       ...keys.map((key) => {
         // What is stated all the same stays to be seen.
         if (!(key in stated) && !asked(key, runs)) return saysNothing(key);
-        const label = amount(key, stated[key] ?? "", (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text), `c-${name}-${key}`);
-        return label.tagName === "LABEL"
-          ? h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"))
-          : label;
+        const say = (text) => putIn("conditions", names.map((each) => `${each}:${key}`), text),
+          angle = key === "locked_at" ? named[name] : undefined,
+          label = amount(key, stated[key] ?? "", say, `c-${name}-${key}`, angle);
+        if (label.tagName !== "LABEL") return label;
+        return h("span", { class: "inline" }, label.querySelector("input"), " ", label.querySelector("span"), angle ? soItIs(`${name} locked at ${angle}`, () => say(angle)) : "");
       }),
       h("label", { class: "held", title: held?.reason ?? "" }, keep, held ? h("span", { class: "quiet small reason" }, held.reason) : ""),
     ];
@@ -135,6 +140,6 @@ export function conditions(bag) {
       { class: "quiet small" },
       `Read from names and heads of the files; what stands here wins; ${TYPED}. ${keys.includes("locked_at") ? `${PLACE}. ` : ""}Held-out conditions are never fitted: the error that counts is theirs.`,
     ),
-    h("div", { class: "panel" }, table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
+    h("div", { class: "panel" }, mountings(bag, used.has("mounting")), table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );
 }

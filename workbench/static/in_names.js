@@ -37,14 +37,16 @@ export function differing(patterns) {
   return {
     angles,
     numbers: parted.map((parts) => parts[at]).sort((p, q) => figure(p) - figure(q)),
+    number: (pattern) => figure(pattern.split(NUMBER)[at]),
     pattern: (field) => parted[0].map((part, i) => (i === at ? `{${field}}` : part)).join(""),
   };
 }
 
 const figure = (text) => parseFloat(text.replace(",", "."));
 
-// ``take(pattern)`` is told what was chosen; ``held``: whether the input may be locked in these runs.
-export function numbersSaid(runs, held, take) {
+// ``take(pattern)`` is told what was chosen, ``place({condition: angle})`` that it is where the input was locked, which leaves conditions the names that they
+// have; ``held``: whether the input may be locked in these runs.
+export function numbersSaid(runs, held, take, place) {
   const patterns = [...new Set(runs.map((run) => run.names))];
   if (patterns.length < 2) return null;
   const found = differing(patterns),
@@ -58,6 +60,6 @@ export function numbersSaid(runs, held, take) {
   return h(
     "p",
     { class: "fair small" },
-    h("label", { class: "inline" }, `The ${found.numbers.length} numbers in these names (${found.numbers.join(", ")}) are`, choose([["", "names alone"], ...free], "", (field) => field && take(found.pattern(field)), { "aria-label": "numbers in the names" })),
+    h("label", { class: "inline" }, `The ${found.numbers.length} numbers in these names (${found.numbers.join(", ")}) are`, choose([["", "names alone"], ...free], "", (field) => field && (field === "locked_at" ? place(Object.fromEntries(runs.map((run) => [run.condition, `${found.number(run.names)} deg`]))) : take(found.pattern(field))), { "aria-label": "numbers in the names" })),
   );
 }

@@ -4,6 +4,8 @@ import { choose, h, spark, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
 import { apart, family, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
+import { soItIs } from "./in_yes.js";
+import { zeroOf } from "./in_zero.js";
 import { drop } from "./net.js";
 
 // So many files of a group are named before it is opened.
@@ -99,6 +101,17 @@ function group(bag, members) {
       if (before && first.columns[role]) w.columns[before] = first.columns[role].header;
       w.columns[role] = header;
     });
+  const putEach = (part, said) =>
+    wish((w) => {
+      w[part] = { ...w[part], ...Object.fromEntries(said) };
+    });
+  // Of a column role and unit are one answer.
+  const confirm = (role, { header, column, unit }) =>
+    wish((w) => {
+      const files = together.has(first.quantity.value) ? kin : own;
+      if (!column.sure) w.columns = { ...w.columns, ...Object.fromEntries(files.map((name) => [`${name}:${role}`, header])) };
+      if (!unit.sure) w.units = { ...w.units, ...Object.fromEntries(files.map((name) => [`${name}:${header}`, unit.value])) };
+    });
   const doubted = data.doubts.filter((d) => Object.values(first.columns).some((e) => e.column.value === d.column));
   const used = new Set(Object.values(first.columns).map((e) => e.header));
   const idle = (data.columns[first.file] ?? []).filter((c) => !used.has(c.name));
@@ -118,18 +131,22 @@ function group(bag, members) {
       ),
       column ? spark(column.curve) : "",
       unitOf(entry, { units, factor: data.wishes.scales?.[`${own[0]}:${entry.header}`] }, (part, value, place) => forAll(part, (name) => `${name}:${entry.header}`, value, place)),
-      h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.column.reason}; unit: ${entry.unit.reason}`),
+      [
+        h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.column.reason}; unit: ${entry.unit.reason} `),
+        entry.column.sure && entry.unit.sure ? null : soItIs(`${entry.header} is ${words(role)} in ${entry.unit.value}`, () => confirm(role, entry)),
+      ],
     ];
   });
   const tags = Object.entries(first.tags).map(([tag, guess]) => {
     const known = choices.tags[tag]?.choices ?? [],
       change = (value) => putIn("tags", tag, value);
-    return h(
+    const label = h(
       "label",
       { class: `inline${guess.sure ? "" : " fair"}`, title: guess.reason },
       tag,
       known.length ? choose(known, guess.value, change) : h("input", { type: "text", value: guess.value, size: 12, onchange: (e) => change(e.target.value) }),
     );
+    return guess.sure ? label : [label, soItIs(`${tag} ${guess.value}`, () => change(guess.value))];
   });
   const whose = data.proposal.angle_of;
   // A transmission error over an angle that turns as the output does: one answer for all of them.
@@ -152,6 +169,13 @@ function group(bag, members) {
           { "aria-label": "whose angle" },
         ),
       ),
+      whose.sure
+        ? null
+        : soItIs(`angle of the ${whose.value}`, () =>
+            wish((w) => {
+              w.angle_of = whose.value;
+            }),
+          ),
     );
   const patterns = [...new Set(members.map((run) => run.names))];
   const say = (names) =>
@@ -183,13 +207,16 @@ function group(bag, members) {
           (value) => forAll("quantities", (name) => name, value),
           { "aria-label": "quantity", title: quantity.description },
         ),
-        first.quantity.sure ? null : h("span", { class: "tag fair" }, "not sure"),
+        first.quantity.sure ? null : [h("span", { class: "tag fair" }, "not sure"), soItIs(words(first.quantity.value), () => forAll("quantities", (name) => name, first.quantity.value))],
         tags,
+        zeroOf(bag, first.quantity.value, quantity),
         kin.length > own.length ? alike(first.quantity.value, bag) : null,
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
-    numbersSaid(members, Boolean(quantity.roles.locked_at), say),
+    numbersSaid(members, Boolean(quantity.roles.locked_at), say, (angles) =>
+      putEach("conditions", Object.entries(angles).map(([name, angle]) => [`${name}:locked_at`, angle])),
+    ),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
     table(
       COLUMNS,

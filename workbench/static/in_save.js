@@ -33,7 +33,21 @@ function fill(bag, row) {
       : null,
     data.saved ? button("Compare", { onclick: () => compare(context.model() || reducer) }) : null,
     lacks ? h("span", { class: "fair" }, lacks) : null,
+    lacks ? null : open(data),
   );
+}
+
+// Nothing is assumed without a word: what stands open as it is saved, and what is taken for it.
+function open({ proposal: { doubts }, saved, same }) {
+  const placeless = doubts.filter((d) => d.cell),
+    others = doubts.filter((d) => !d.cell);
+  if (!doubts.length) return null;
+  const told = [
+    ...placeless.map((d) => `where the input was locked in ${d.place}: loops are predicted as the mean over a turn of the cranks until somebody says it`),
+    ...others.filter((d) => d.guess).map((d) => `guessed: ${d.guess}`),
+    others.some((d) => !d.guess) ? "what else is not sure above is taken as it stands" : "",
+  ].filter(Boolean);
+  return h("div", { class: "fair small open", id: "open" }, saved && same ? "Saved with this open: " : "Open, and saved so: ", told.join("; "), ".");
 }
 
 // The row may be drawn anew meanwhile: what it says stands in the bag.

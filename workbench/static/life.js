@@ -32,6 +32,7 @@ export function show(root, context) {
     result = null,
     hours = USUAL_HOURS,
     torque = "",
+    speed = "",
     // When that began of which the fields are.
     begun = null,
     // How often was asked for what there is.
@@ -58,6 +59,7 @@ export function show(root, context) {
     begun = job.begun;
     hours = String(job.given.hours ?? "").trim() || USUAL_HOURS;
     torque = String(job.given.torque ?? "").trim();
+    speed = String(job.given.speed ?? "").trim();
   }
 
   async function load() {
@@ -77,7 +79,7 @@ export function show(root, context) {
     const job = context.state?.jobs.life,
       busy = context.busy();
     const paused = job?.state === "stopped" || job?.state === "gone";
-    const given = () => ({ hours, torque }),
+    const given = () => ({ hours, torque, speed }),
       lacks = busy || (context.model() ? "" : "a model or reducer has to be chosen first");
     clear(
       top,
@@ -117,6 +119,24 @@ export function show(root, context) {
           "N·m",
         ),
         h(
+          "label",
+          { class: "inline" },
+          "input speed",
+          h("input", {
+            type: "text",
+            inputmode: "decimal",
+            size: 7,
+            id: "speed",
+            value: speed,
+            placeholder: "the file's",
+            title: "of the sun's shaft; without one the speed of the model or reducer, which Reducer says",
+            onchange: (e) => {
+              speed = e.target.value;
+            },
+          }),
+          "rpm",
+        ),
+        h(
           "button",
           { type: "button", class: "main", id: "live", disabled: !!lacks, title: lacks || undefined, onclick: () => context.start("life", given()) },
           paused ? "Go on" : "Run",
@@ -125,7 +145,7 @@ export function show(root, context) {
         result ? h("a", { class: "button", href: "results/life/report?download", download: "" }, "Save the report") : null,
       ),
       job?.fault && job.state !== "running" ? note(job.fault, "bad") : null,
-      paused ? note(`Paused${live ? ` at ${since(live.now)}` : ""}: the life goes on from its last jump, as long as hours, torque and model stay.`) : null,
+      paused ? note(`Paused${live ? ` at ${since(live.now)}` : ""}: the life goes on from its last jump, as long as hours, torque, speed and model stay.`) : null,
     );
   }
 

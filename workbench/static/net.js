@@ -1,6 +1,11 @@
 // What the page asks of its server: addresses count from the page's own, which holds the token.
 
-export class Fault extends Error {}
+export class Fault extends Error {
+  constructor(text, status) {
+    super(text);
+    this.status = status;
+  }
+}
 
 async function answer(response) {
   if (response.ok) return response;
@@ -11,7 +16,7 @@ async function answer(response) {
   } catch {
     /* plain words */
   }
-  throw new Fault(fault || `the server answers ${response.status}`);
+  throw new Fault(fault || `the server answers ${response.status}`, response.status);
 }
 
 async function sent(path, options) {

@@ -102,6 +102,7 @@ export function show(root, context) {
         r.speed ? `; ${r.speed}` : "",
       ),
       r.findings.map((t) => note(t, "bad")),
+      r.open.length ? h("div", { id: "open-places" }, r.open.map((t) => note(t))) : null,
       h("div", { class: "grid" }, r.figures.map(figure)),
       numbers([...r.added, ...r.numbers]),
     );
@@ -167,8 +168,12 @@ export function show(root, context) {
       }
       if (!result.childElementCount || result.firstChild.className === "quiet") clear(result, h("p", { class: "quiet" }, "Completing and checking…"));
       const found = await context.act(post("reducer/new", { ...form, known, save }), said);
+      // What is asked for is typed in the table below: it stays, as it was last made.
+      const stands = result.childElementCount > 1;
+      result.classList.toggle("before", !found && stands);
       if (!found) {
-        clear(result);
+        if (stands) said.append(h("p", { class: "past-note", role: "status" }, "What stands below is the reducer as it could last be made; what is typed there is taken."));
+        else clear(result);
         return;
       }
       if (found.saved) {

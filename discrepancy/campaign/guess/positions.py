@@ -5,13 +5,13 @@ from collections.abc import Iterable, Mapping
 from discrepancy.campaign.guess.file_names import stem
 from discrepancy.campaign.guess.locked_words import angle_named
 from discrepancy.campaign.guess.run import GuessedRun
-from discrepancy.campaign.guess.said import Doubt
+from discrepancy.campaign.guess.said import Unplaced
 from discrepancy.campaign.guess.wishes import OPEN
 from discrepancy.campaign.unplaced import QUESTION
 from discrepancy.held_names import LOCKED_AT
 
 
-def positions_asked(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]]) -> list[Doubt]:
+def positions_asked(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str, Mapping[str, str]]) -> list[Unplaced]:
     """One doubt for all conditions; an angle that their names hold stands in the option.  ``runs``: condition and run."""
     angles: dict[str, set[str | None]] = {}
     for condition, run in runs:
@@ -23,6 +23,8 @@ def positions_asked(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[
     named = {condition: found.pop() if len(found) == 1 else None for condition, found in angles.items()}
     options = " ".join(f"--condition '{condition}:{LOCKED_AT}={angle or OPEN}'" for condition, angle in named.items())
     text = f"{QUESTION} ({LOCKED_AT} of the condition); these loops are predicted as the mean over a turn of the cranks"
-    if any(named.values()):
-        text += f"; their names say {', '.join(dict.fromkeys(angle for angle in named.values() if angle))}, which may be that angle"
-    return [Doubt(", ".join(angles), text, f"{options}; {LOCKED_AT}=mean where loops at positions over a turn were averaged; leave it where nobody knows")]
+    said = tuple((condition, angle) for condition, angle in named.items() if angle)
+    if said:
+        text += f"; their names say {', '.join(dict.fromkeys(angle for _, angle in said))}, which may be that angle"
+    remedy = f"{options}; {LOCKED_AT}=mean where loops at positions over a turn were averaged; leave it where nobody knows"
+    return [Unplaced(", ".join(angles), text, remedy, said)]

@@ -23,7 +23,7 @@ from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
 from discrepancy.campaign.guess.positions import positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
-from discrepancy.campaign.guess.said import Doubt, Guess
+from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize, Unplaced
 from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, written_alike
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.told_once import merged
@@ -59,7 +59,7 @@ class Proposal:
     """``data``: folder that all files lie in.  ``joined``: conditions that are like another by what is given -> that one.  ``needs`` must be
     given before a model can be held against the campaign; ``unplaced``: of the doubts those of loops of which nobody says where the input was
     locked; ``angle_of``: whose angle transmission errors stand over, if over one that turns as the output does; ``named``: the reducer of the library
-    that lines above the tables name."""
+    that lines above the tables name; ``zeros``: quantities of which it is said whether their zero is known."""
 
     name: str
     reducer: str | None
@@ -70,9 +70,10 @@ class Proposal:
     runs: tuple[PlacedRun, ...]
     doubts: tuple[Doubt, ...]
     needs: tuple[Doubt, ...]
-    unplaced: tuple[Doubt, ...]
+    unplaced: tuple[Unplaced, ...]
     angle_of: Guess[str] | None
     named: str | None
+    zeros: dict[str, str]
 
     def of(self, reducer: str) -> "Proposal":
         """The same of a reducer that is known by now, for which no file has to be read again; InputFault where there is none of that name."""
@@ -83,6 +84,7 @@ class Proposal:
         return {
             "name": self.name, "reducer": self.reducer, "named": self.named, "data": str(self.data), "conditions": self.conditions, "joined": self.joined,
             "held_out": {name: guess.as_json() for name, guess in self.held_out.items()}, "angle_of": self.angle_of and self.angle_of.as_json(),
+            "zeros": self.zeros,
             "runs": [
                 {
                     "id": run.name, "file": str(run.guessed.path), "quantity": run.guessed.quantity.as_json(), "condition": run.condition,
@@ -127,7 +129,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     runs = placed(guessed, names)
     angle_of, of_angles = whose_angle(zip(names, guessed), conditions, wishes)
     of_runs = [d for run in guessed for d in (*run.doubts, *said_otherwise(run, wishes))]
-    doubts = [*merged([*of_runs, *unfitting(guessed), *of_angles]), *idle_tags(guessed, wishes)]
+    doubts = [*merged([*of_runs, *unfitting(guessed), *of_angles]), *idle_tags(guessed, wishes), *idle_zeros(guessed, wishes)]
     in_conditions = [(run.condition, run.guessed) for run in runs]
     doubts += different_in_columns(in_conditions, conditions)
     unplaced = positions_asked(in_conditions, conditions)
@@ -137,6 +139,7 @@ def propose(files: Sequence[Path], wishes: Wishes, name: str = "campaign") -> Pr
     return Proposal(
         name, wishes.reducer, Path(os.path.commonpath([path.resolve().parent for path in paths])), conditions, joined,
         held(wishes, conditions, joined, runs), tuple(runs), (*doubts, *unplaced), needs, tuple(unplaced), angle_of, named,
+        {quantity: zero for quantity, zero in wishes.zeros.items() if quantity in {run.quantity.value for run in guessed}},
     )  # fmt: skip
 
 
@@ -231,11 +234,21 @@ def idle_tags(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
     return found
 
 
+def idle_zeros(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Doubt]:
+    """Zeros that are said of quantities that no file is taken for."""
+    there = {run.quantity.value for run in runs}
+    return [
+        Doubt("campaign", f"--zero {quantity}={zero} says nothing: no file is taken for {quantity}", f"--quantity 'FILES={quantity}'")
+        for quantity, zero in wishes.zeros.items() if quantity not in there
+    ]  # fmt: skip
+
+
 def without_what_is_given(run: GuessedRun, names: set[str], wishes: Wishes) -> GuessedRun:
-    """What is given of its condition by one of its ``names`` wins over what the run itself had."""
+    """What is given of its condition by one of its ``names`` wins over what the run itself had; whose a speed is that was given is no doubt."""
     given = {key.rpartition(":")[2] for key in wishes.conditions if key.rpartition(":")[0] in names}
     speeds = any(key.endswith("put_speed") for key in given)
-    return replace(run, actual={key: text for key, text in run.actual.items() if key not in given and not (speeds and key.endswith("put_speed"))})
+    actual = {key: text for key, text in run.actual.items() if key not in given and not (speeds and key.endswith("put_speed"))}
+    return replace(run, actual=actual, doubts=tuple(d for d in run.doubts if not (speeds and isinstance(d, SpeedBySize))))
 
 
 def placed(guessed: Sequence[GuessedRun], conditions: Sequence[str]) -> list[PlacedRun]:

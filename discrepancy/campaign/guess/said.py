@@ -31,6 +31,18 @@ class Doubt:
 
 
 @dataclass(frozen=True)
+class Unplaced(Doubt):
+    """Loops of which nobody says where the input was locked; ``angles``: conditions whose names hold an angle that may be it ("90 deg")."""
+
+    angles: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class AngleAssumed(Doubt):
+    """Angles that nobody says whose they are."""
+
+
+@dataclass(frozen=True)
 class SpeedBySize(Doubt):
     """A ``speed`` ("600 rpm") that was taken for ``key`` by its size alone, which is ``size`` ("faster than outputs turn")."""
 

@@ -9,10 +9,14 @@ from discrepancy.campaign.guess.said import Doubt, SpeedBySize
 
 def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
     """Equal doubts of several files once."""
-    places: dict[tuple[str, str], list[str]] = {}
+    alike: dict[tuple[str, str], list[Doubt]] = {}
     for doubt in with_speeds_together(doubts):
-        places.setdefault((doubt.text, re.sub(r"'[^'=]*=QUANTITY'", "'FILES=QUANTITY'", doubt.remedy)), []).append(doubt.place)
-    return [Doubt(files[0] + (f" and {len(files) - 1} more" if len(files) > 1 else ""), text, remedy) for (text, remedy), files in places.items()]
+        alike.setdefault((doubt.text, re.sub(r"'[^'=]*=QUANTITY'", "'FILES=QUANTITY'", doubt.remedy)), []).append(doubt)
+    # The first of them stays what it is: what answers it hangs on that.
+    return [
+        replace(same[0], place=same[0].place + (f" and {len(same) - 1} more" if len(same) > 1 else ""), remedy=remedy)
+        for (_, remedy), same in alike.items()
+    ]
 
 
 def with_speeds_together(doubts: Sequence[Doubt]) -> list[Doubt]:

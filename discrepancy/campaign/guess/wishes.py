@@ -9,12 +9,15 @@ from typing import TypeVar
 from discrepancy.campaign.guess.header_units import name_of
 from discrepancy.campaign.guess.tag_words import meant_by
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, TAGS
+from discrepancy.problem import WITH_ZERO
 from fmu_src.faults import InputFault, nearest
 
 # What stands in a proposed option for what only the bench knows.
 OPEN = "..."
 # Whose angle a transmission error may stand over.
 OUTPUT, INPUT = "output", "input"
+# Whether the mean of a quantity counts: from a zero that is known, or not.
+ABSOLUTE, FREE = "absolute", "free"
 
 Value = TypeVar("Value")
 
@@ -30,6 +33,7 @@ class Wishes:
     ``held_out``: names of conditions, () for none, None for what is proposed.  ``tags``: for runs whose quantity has them.
     ``angle_of``: "output" or "input", whose angle transmission errors stand over; None where nobody says it.
     ``scales``: header, or pattern of file names:header -> what its numbers are multiplied by.
+    ``zeros``: quantity -> "absolute" where its zero is known, or "free".
     """
 
     reducer: str | None = None
@@ -43,6 +47,7 @@ class Wishes:
     tags: Mapping[str, str] = field(default_factory=dict)
     angle_of: str | None = None
     scales: Mapping[str, float] = field(default_factory=dict)
+    zeros: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """InputFault for what there is not."""
@@ -50,7 +55,8 @@ class Wishes:
         keys = [key.rpartition(":")[2] for key in self.conditions]
         whose = [self.angle_of] if self.angle_of else []
         options = (("--quantity", list(self.quantities.values()), list(QUANTITIES)), ("--condition", keys, known), ("--tag", list(self.tags), list(TAGS)),
-                   ("--angle-of", whose, [OUTPUT, INPUT]))  # fmt: skip
+                   ("--angle-of", whose, [OUTPUT, INPUT]), ("--zero", list(self.zeros), list(WITH_ZERO)),
+                   ("--zero QUANTITY", list(self.zeros.values()), [ABSOLUTE, FREE]))  # fmt: skip
         for option, given, choices in options:
             for name in given:
                 if name not in choices:

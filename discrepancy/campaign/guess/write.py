@@ -42,8 +42,12 @@ def campaign_text(proposal: Proposal, folder: Path) -> str:
             lines.append(f"held_out = true                          # {proposal.held_out[name].reason}")
     for run in proposal.runs:
         lines += ["", *run_lines(run, proposal.data)]
-    if whose := proposal.angle_of:
-        lines += ["", f"[quantities.{ERROR}]", f"{f'angle_of = {toml(whose.value)}':<39} # {whose.reason}"]
+    for quantity in dict.fromkeys([*([ERROR] if proposal.angle_of else []), *proposal.zeros]):
+        lines += ["", f"[quantities.{quantity}]"]
+        if quantity in proposal.zeros:
+            lines.append(f"zero = {toml(proposal.zeros[quantity])}")
+        if quantity == ERROR and (whose := proposal.angle_of):
+            lines.append(f"{f'angle_of = {toml(whose.value)}':<39} # {whose.reason}")
     if any(run.guessed.quantity.value == ERROR for run in proposal.runs):
         # Nobody sets an encoder to 0 where the model begins; where its pattern hardly shows it would be taken to stand there.
         lines += ["", "[nuisances.encoder_phase]                # where angles count from: found", *PHASE]
