@@ -693,7 +693,7 @@ def test_a_reducer_is_completed_refused_and_saved_once(tmp_path):
     with pytest.raises(InputFault, match="^ratio 8100: must lie"):
         completed(folder, {**asked, "ratio": "8100"})
     # "meet lost motion ... give known bearing.clearance=..." stood there, and the path of a file that is not there.
-    with pytest.raises(InputFault, match=r"^'refuse where no gap.*'lost motion of the catalogue', or type bearing.clearance or first_stage.backlash in 'Every"):
+    with pytest.raises(InputFault, match=r"^'refuse where no gap.*'lost motion of the catalogue', or type bearing.clearance in 'Every"):
         completed(folder, {**asked, "lost_motion": "0.1", "meets_lost_motion": True})
     with pytest.raises(InputFault, match=r"^\[bearing\] clearance = 9000 um: "):
         completed(folder, {**asked, "known": {"bearing.clearance": "9mm"}})

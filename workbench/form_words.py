@@ -12,7 +12,7 @@ TABLE = "in 'Every number of its file' below"
 SAID = [
     (re.compile(r"--meet-lost-motion and --known (\S+):"), rf"{BOX} is ticked and \1 is typed {TABLE}:"),
     (re.compile(r"--meet-lost-motion:"), f"{BOX}:"),
-    (re.compile(r"give --known (\S+)=\.\.\. or (\S+)=\.\.\.,"), rf"type \1 or \2 {TABLE},"),
+    (re.compile(r"give --known (\S+)=\.\.\."), rf"type \1 {TABLE}"),
     (re.compile(r", for instance --known \S+?=(\S+)"), r", for instance \1"),
     (re.compile(r"--known (\S+?)=(\S*[^\s:])(?=[:;, ]|$)"), rf"\1 = \2 {TABLE}"),
 ]
