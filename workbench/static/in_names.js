@@ -46,14 +46,14 @@ const figure = (text) => parseFloat(text.replace(",", "."));
 
 // ``take(pattern)`` is told what was chosen, ``place({condition: angle})`` that it is where the input was locked, which leaves conditions the names that they
 // have; ``held``: whether the input may be locked in these runs.
-export function numbersSaid(runs, held, take, place) {
+export function numbersSaid(runs, conditions, held, take, place) {
   const patterns = [...new Set(runs.map((run) => run.names))];
   if (patterns.length < 2) return null;
   const found = differing(patterns),
     fits = (field) => (field === "locked_at" ? held : !found?.angles),
     free = Object.entries(FIELDS).filter(([field]) => fits(field) && !patterns[0].includes(`${field}}`) && !patterns[0].includes(`{${field}_`));
   // Where each run states all of these numbers they are read already: "locked at 40°".
-  const stated = new Set(runs.flatMap((run) => Object.values(run.stated).map((guess) => parseFloat(guess.value))));
+  const stated = new Set(runs.flatMap((run) => [...Object.values(run.stated).map((guess) => guess.value), conditions[run.condition]?.locked_at ?? ""].map(parseFloat)));
   if (found?.numbers.every((text) => stated.has(figure(text)))) return null;
   if (!found || !free.length)
     return h("p", { class: "fair small" }, `${patterns.length} names that differ by numbers make conditions of their own. What a number says can be put in under Conditions, or its field, such as {load} or {speed}, in its place under "names say".`);

@@ -214,7 +214,7 @@ function group(bag, members) {
       ),
       h("label", { class: "inline small" }, "names say", pattern),
     ),
-    numbersSaid(members, Boolean(quantity.roles.locked_at), say, (angles) =>
+    numbersSaid(members, data.proposal.conditions, Boolean(quantity.roles.locked_at), say, (angles) =>
       putEach("conditions", Object.entries(angles).map(([name, angle]) => [`${name}:locked_at`, angle])),
     ),
     first.quantity.sure ? null : h("p", { class: "fair small" }, first.quantity.reason),
