@@ -116,7 +116,7 @@ def test_titles_of_axes_and_names_of_a_legend_fold_on_a_narrow_card(chromium, fi
         const trace = { type: 'scatter', x: [0], y: [0], name: 'eccentrics of the cranks at disc 1, up to 6.00 µm (drawn 500 times)' };
         return [330, 900].map((width) => { const { data, layout: shown } = narrowed({ height: 220 }, [trace], layout, width);
           return [shown.xaxis.title.text, shown.yaxis.title.text, shown.margin.l, data[0].name]; }); }""")
-    assert told[0] == ["t [s]", "share of the depth at the<br>end, of all parts [%]", 73, "eccentrics of the cranks at disc 1, up to 6.00<br>µm (drawn 500 times)"]
+    assert told[0] == ["t [s]", "share of the depth at the<br>end, of all parts [%]", 73, "eccentrics of the cranks at disc 1, up to<br>6.00 µm (drawn 500 times)"]
     assert "<br>" not in told[1][1] + told[1][3] and told[1][2] == 60
 
 
