@@ -905,7 +905,7 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_and_a_box_refuses_one_th
     assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
     # What cannot be made says what to type, and where one types it stays.
     page.fill("#ask-lost_motion", "0.1")
-    page.get_by_text("type bearing.clearance or first_stage.backlash in 'Every number of its file' below").wait_for()
+    page.get_by_text("type bearing.clearance in 'Every number of its file' below").wait_for()
     assert page.locator("[id='n-bearing.clearance']").is_visible() and page.get_by_text("as it could last be made").is_visible()
     page.fill("#ask-lost_motion", "1")
     page.get_by_text("as it could last be made").wait_for(state="detached")
