@@ -165,3 +165,31 @@ def served(tmp_path_factory):
 
     folder = opened(tmp_path_factory.mktemp("bench") / "my bench")
     return folder, started(folder)
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    """Skipped with a word where something is missing."""
+    from browser import CHROMIUM
+
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install playwright")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium: apt-get install chromium")
+    with playwright.sync_playwright() as tools:
+        browser = tools.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def bench(chromium, tmp_path, request):
+    """The workbench of an empty folder; nothing may have gone wrong on its page."""
+    from browser import Bench
+
+    pytest.importorskip("starlette", reason='the workbench needs starlette: pip install "rvwear[workbench]"')
+    # A diagnosis that is remembered from an earlier run could not be stopped.
+    fresh = {"XDG_CACHE_HOME": str(tmp_path / "cache")} if request.node.get_closest_marker("campaign") else {}
+    there = Bench(chromium, tmp_path / "bench 1", **fresh)
+    yield there
+    there.close()
+    assert not there.trouble

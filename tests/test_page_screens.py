@@ -2,7 +2,6 @@
 
 import json
 import re
-import shutil
 from itertools import pairwise
 
 import numpy as np
@@ -14,18 +13,7 @@ from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from pages.render import rendered_sections
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 LONG = "base.hole_position_errors.disc_hole_radial_1 + clock_slip.transmission_error + runout.output"
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    if CHROMIUM is None:
-        pytest.skip("no Chromium: apt-get install chromium")
-    with pytest.importorskip("playwright.sync_api").sync_playwright() as tools:
-        browser = tools.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,120 @@
+"""Try, in headless Chromium: numbers of effects and the curves that follow them."""
+
+import shutil
+
+import pytest
+from browser import EXAMPLE
+
+
+@pytest.mark.campaign
+def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page, held = bench.page, []
+
+    def asked(route):
+        given = route.request.post_data_json
+        if given["roughly"] or not given["values"]:
+            route.continue_()
+        else:
+            held.append(route)
+
+    page.route("**/try/curve", asked)
+    bench.view("try")
+    page.fill("input[type=search]", "thermal expansion")
+    page.locator("[data-parameter=thermal_expansion]").focus()
+    page.keyboard.press("ArrowRight")
+    page.locator("#followed", has_text="≈").get_by_text("first look, the exact number follows").wait_for()
+    while not held:
+        page.wait_for_timeout(100)
+    held[0].continue_()
+    page.locator("#followed", has_not_text="first look").wait_for()
+    # What was tried is there again when the view is, or the page.
+    tried = page.locator("[data-parameter=thermal_expansion]").input_value()
+    page.unroute("**/try/curve")
+    for again in (lambda: (bench.view("look"), bench.view("try")), page.reload):
+        again()
+        page.locator("#followed", has_text="thermal expansion").wait_for(timeout=60_000)
+        assert page.locator("[data-parameter=thermal_expansion]").input_value() == tried
+
+
+def test_under_try_a_model_s_own_effects_stay_and_it_says_so(bench):
+    """All off was taken for the reducer without the effect, and called base model."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    text = '[model]\nname = "better"\nreducer = "RV20E-121-rigid"\n[effects.thermal_expansion]\nexpansion = "2e-6 1/K"\n'
+    (bench.folder / "model.toml").write_text(text, encoding="utf-8")
+    page = bench.page
+    bench.view("try")
+    page.locator("button", has_text="All off").wait_for()
+    page.select_option("#model", "model.toml")
+    page.locator("button", has_text="Back to the model as it is").wait_for()
+    page.locator("#followed", has_text="the model as it is, its own effects on (thermal expansion)").wait_for()
+    page.locator("summary", has_text="thermal expansion").first.click()
+    page.locator("button", has_text="Without it").first.click()
+    page.locator("#followed", has_not_text="its own effects on").wait_for()
+    page.locator("button", has_text="Back to the model as it is").click()
+    page.locator("#followed", has_text="its own effects on").wait_for()
+    page.select_option("#model", "RV20E-121-rigid")
+    page.locator("button", has_text="All off").wait_for()
+    page.locator("#followed", has_text="base model").wait_for()
+
+
+def test_a_search_under_try_opens_what_is_called_so_alone(bench):
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page = bench.page
+    bench.view("try")
+    page.fill("input[type=search]", "(planet)")
+    page.locator("[data-parameter=planet_runout]").wait_for()
+    titles = page.locator("ul.list > li > details[open] > summary").all_inner_texts()
+    assert titles == ["first stage error (planet)"]
+    # The words about an effect are those of all its forms: these are listed below it.
+    listed = page.locator("ul.list > li > details > summary").all_inner_texts()
+    assert listed[0] == titles[0] and "first stage error (mesh)" in listed
+
+
+def test_an_effect_that_is_opened_under_try_is_seen_to_its_end(bench):
+    """The panel cut it at its bottom."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page = bench.page
+    bench.view("try")
+    page.locator("ul.list > li > details").first.wait_for()
+    parts = """() => {
+      const { bottom, height } = document.querySelector('ul.list').getBoundingClientRect();
+      const item = [...document.querySelectorAll('ul.list > li')].findLast((li) => li.getBoundingClientRect().bottom < Math.min(bottom, innerHeight));
+      item.id = 'lowest';
+      return height;
+    }"""
+    height = page.evaluate(parts)
+    page.locator("#lowest summary").click()
+    page.locator("#lowest details[open]").wait_for()
+    seen = """() => {
+      const list = document.querySelector('ul.list').getBoundingClientRect(), item = document.querySelector('#lowest').getBoundingClientRect();
+      return [item.height, item.top >= list.top - 1, item.bottom <= Math.min(list.bottom, innerHeight) + 1];
+    }"""
+    page.wait_for_function(f"({seen})()[2]", timeout=5_000)
+    tall, from_top, to_bottom = page.evaluate(seen)
+    assert 100 < tall < height and from_top and to_bottom
+
+
+def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_shown(bench):
+    """400 became 30 with neither the range nor a unit; the words stayed when the slider was moved."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { entry } = await import('./static/try_effects.js'), values = {};
+      const p = { name: 'disc_hole_shift_1', unit: 'µm', factor: 1e6, offset: 0, off: 0, low: -15, high: 15, bounds: [-30, 30], amplitude: true, description: '' };
+      const item = entry({ title: 'holes', parameters: [p] }, { values, open: true, drawList: () => {}, follow: () => {} });
+      const [range, field] = item.querySelectorAll('input'), said = [];
+      const give = (input, text, event) => {
+        input.value = text;
+        input.dispatchEvent(new Event(event));
+        said.push([field.value, item.querySelector('[role=status]').textContent, Math.round(1e6 * (values.disc_hole_shift_1 ?? 0))]);
+      };
+      give(field, '400', 'change');
+      give(field, '20', 'change');
+      give(field, '-30.001', 'change');
+      give(range, '4', 'input');
+      return [said, field.nextElementSibling.getAttribute('role')];
+    }""")
+    bounds = "must lie in [−30, 30] µm"
+    assert told == [
+        [["30", f"400 µm {bounds}; 30 µm is shown", 30], ["20", "", 20], ["-30", f"−30.001 µm {bounds}; −30 µm is shown", -30], ["4", "", 4]], "status"
+    ]
