@@ -20,12 +20,12 @@ from discrepancy.inference.refit.confusable import PER_PARAMETER, penalised
 from discrepancy.inference.verdict import ONE, SEVERAL
 from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model
-from discrepancy.next_run import Measurement, at_a_position
 from discrepancy.prediction.bench import HELD_ANGLES
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.positions import departures, position_scores
 from discrepancy.problem import Candidate, Parameter, Record, is_loop, is_unplaced
+from discrepancy.rig_runs import Measurement, at_a_position
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
 from studies import coupled

@@ -13,9 +13,10 @@ from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_exp
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun, at_rated, conditions, describe, possible, proposal_for
+from discrepancy.next_run import NextRun, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
+from discrepancy.rig_runs import at_rated, conditions, describe, possible
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from reducers.reducer import load_reducer

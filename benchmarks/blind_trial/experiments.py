@@ -39,8 +39,9 @@ from benchmarks.blind_trial.words import EXPERIMENTS, ONE, PROPOSED, RANDOM, RES
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.next_experiment import RivalLaw, rival_of
-from discrepancy.next_run import Measurement, NextRun, next_run, possible
+from discrepancy.next_run import NextRun, next_run
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.rig_runs import Measurement, possible
 from fmu_src.arrays import Floats
 
 RIG = """[rig]
