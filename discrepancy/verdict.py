@@ -189,10 +189,11 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += ring_texts(effects, fit.values, model.file) + sign_doubts(effects, found)
     doubts += direction_doubts(effects, found, as_told.tables_of(model))
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
-    warnings = untold + beforehand(model, figures) + doubts + places + warnings_of(model, list(found.warnings))
-    warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
     # Who interrupts waits for nothing more.
     after = figures_of(doctor, model, fit.values) if best and figures and verdict != STOPPED else []
+    # A stiffness that what is named explains is no riddle.
+    warnings = untold + beforehand(model, after or figures) + doubts + places + warnings_of(model, list(found.warnings))
+    warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
     return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros, figures_after=after)
 
 

@@ -1,16 +1,21 @@
 """An angle that says where something stands is told in degrees, however small it is; an error of an angle in the unit of its size."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 from discrepancy import as_told
-from discrepancy.model_file import every_effect, parameter_variable
+from discrepancy.campaign.load import load_campaign
+from discrepancy.inference.refit.directions import half_a_turn_on, period
+from discrepancy.model_file import every_effect, load_model, parameter_variable
 from discrepancy.page import amounts
 from discrepancy.prediction.candidates import parameter_of
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import estimate_texts, of_variable
 from discrepancy.written_number import written_entry
 
+EXAMPLE = Path(__file__).parents[1] / "examples" / "hidden_effect" / "campaign"
 ARCMIN = math.radians(1.0 / 60.0)
 SMALL = -6.915 * ARCMIN
 # As a diagnosis has it.
@@ -44,3 +49,15 @@ def test_a_slider_of_a_phase_goes_all_round():
     assert (shown["low"], shown["high"], shown["unit"], shown["all_round"]) == (pytest.approx(-180.0), pytest.approx(180.0), "°", True)
     seat = next(p for p in every_effect()["pin_seats"].parameters if p.variable.name == "pin_seat_direction")
     assert slider(parameter_of(seat, 0.7), False)["all_round"] is False
+
+
+def test_only_what_is_looked_through_in_even_steps_of_a_turn_has_another_side():
+    """A phase of several waves and a width had one that was none: "0.9 deg shows the same as 0.9 deg"."""
+    model = PhysicalModel(load_model("RV20E-121"), load_campaign(EXAMPLE))
+    candidate = {f"{c.name}.{p.name}": (c, p) for c in model.candidates for p in c.shapes}
+    turns = {name: 2.0 * math.pi / again for name, (c, p) in candidate.items() if (again := period(c, p))}
+    assert turns["disc_tooth_errors.ovality.disc_ovality_angle"] == 2 and turns["pin_position_errors.trilobe.pin_ring_trilobe_angle"] == pytest.approx(3)
+    assert turns["pin_position_errors.runout.pin_ring_runout_angle"] == 1
+    assert "first_stage_error.sun.first_stage_phase" not in turns and "race_spall.spall_width" not in turns
+    sun, oval = (candidate[name] for name in ("first_stage_error.sun.first_stage_phase", "disc_tooth_errors.ovality.disc_ovality_angle"))
+    assert not list(half_a_turn_on([sun[0], oval[0]], {sun[1].name: 0.1, oval[1].name: 0.1}))

@@ -2,7 +2,9 @@
 
 import argparse
 import json
+import math
 
+import numpy as np
 import pytest
 
 from cli.commands import effects
@@ -12,7 +14,15 @@ from discrepancy.catalogue.examples import AUDITED, CASES, picture
 from discrepancy.catalogue.plots import PICTURE, figure
 from discrepancy.catalogue.signature import new_bench, signature, words
 from discrepancy.page.amounts import effect_title
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.candidates import shown_by
+from discrepancy.prediction.units import Condition
 from fmu_src.faults import InputFault
+from reducers.reducer import load_reducer
+from rv_plant.effects import EFFECTS as PLANT_EFFECTS
+
+# Of an effect three times as large as it is likely to be [rad].
+SEEN = 0.02 * math.pi / 648000.0
 
 
 def run(*arguments):
@@ -99,3 +109,23 @@ def test_lobes_are_those_of_a_disc_and_a_crank_has_eccentrics():
     told = entry("crank_lobe_errors").effect
     texts = [told.title, told.law, told.signature, *(p.variable.description for p in told.parameters), effect_title("crank_lobe_errors.crank_1")]
     assert not [text for text in texts if "lobe" in text] and effect_title("crank_lobe_errors.crank_1") == "crank eccentric errors (crank 1)"
+
+
+def test_an_effect_lists_the_signals_that_it_changes():
+    """Seats of pins, a yielding ring and carrier, play over the angle and a tilting moment changed loops and were never looked for in them."""
+    bench = Bench(load_reducer("RV20E-121"), {})
+    load = bench.rated_load
+    running, torques = Condition(94.0, 0.6 * load), load * np.array([0.0, 0.5, 1.0, 0.5, 0.0, -0.5, -1.0, -0.5, 0.0])
+    angles = 0.3 + np.linspace(0.0, 2.0 * np.pi / bench.reducer.topology.lobes, 12)
+    shown = {"transmission_error": lambda values: bench.column("transmission_error", running, values, angles),
+             "hysteresis": lambda values: bench.held(Condition(94.0, load, locked_at=0.4), values, torques)}
+    plain = {quantity: read({}) for quantity, read in shown.items()}
+    missing = []
+    for name, effect in PLANT_EFFECTS.items():
+        # Cages are placed in every run, whatever the effect: how far they skid before it is not seen.
+        for p in () if name == "roller_skidding" else effect.amplitudes():
+            for quantity in shown.keys() - set(shown_by(effect)):
+                change = shown[quantity]({p.variable.name: p.variable.start + 3.0 * p.scale}) - plain[quantity]
+                if np.ptp(change) > SEEN:
+                    missing.append(f"{name}: {p.variable.name} changes {quantity}")
+    assert missing == []

@@ -33,7 +33,7 @@ EFFECT = Effect(
         _part("carrier_crank_cos", "the cranks' turn against the carrier, cosine", "cranks"),
         _part("carrier_crank_sin", "the cranks' turn against the carrier, sine", "cranks"),
     ),
-    signals=("transmission_error", "vibration", "input_torque"),
+    signals=("transmission_error", "vibration", "hysteresis", "input_torque"),
 )  # fmt: skip
 
 

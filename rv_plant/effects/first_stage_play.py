@@ -29,7 +29,7 @@ EFFECT = Effect(
     "geometry of spur gears; 5 to 30 um",
     "order 40 at the output at any load, its sign with that of the torque; a planet off centre has the same sign both ways",
     (_part("first_stage_play_cos", "cosine"), _part("first_stage_play_sin", "sine")),
-    signals=("transmission_error", "vibration", "input_torque"),
+    signals=("transmission_error", "vibration", "hysteresis", "input_torque"),
 )  # fmt: skip
 
 

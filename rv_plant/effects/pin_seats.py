@@ -44,7 +44,7 @@ EFFECT = Effect(
         shape("pin_seat_direction", "rad", "psi_0: middle of the loaded arc from the eccentricity", 0.7, 0.0, 1.571,
               "assumed: acos K1, K1 0.65 to 0.9", grid=(0.7,), group="two waves four waves"),
     ),
-    signals=("transmission_error", "vibration", "input_torque"),
+    signals=("transmission_error", "vibration", "hysteresis", "torsional_stiffness", "input_torque"),
 )  # fmt: skip
 
 

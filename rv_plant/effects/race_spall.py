@@ -26,7 +26,7 @@ EFFECT = Effect(
         choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3, part="disc"),
         choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3, part="crank"),
     ),
-    signals=("vibration", "transmission_error"),
+    signals=("vibration", "hysteresis", "transmission_error"),
 )
 
 

@@ -26,7 +26,7 @@ EFFECT = Effect(
     "order 78 (2 z_c) of the output in proportion to the torque, nothing without load;"
     " an oval ring has the same order whatever the load",
     (_share("ring_stiffness_cos", "cosine"), _share("ring_stiffness_sin", "sine")),
-    signals=("transmission_error", "vibration", "input_torque"),
+    signals=("transmission_error", "vibration", "hysteresis", "input_torque"),
 )  # fmt: skip
 
 

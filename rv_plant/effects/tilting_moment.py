@@ -44,7 +44,7 @@ EFFECT = Effect(
         shape("tilting_friction", "1", "f: friction torque at the output over the moment", 4e-3, 0.0, 0.2,
               "assumed: 2 mu r/L with mu 0.002 and bearings as far apart as they are wide", grid=(4e-3,)),
     ),
-    signals=("transmission_error", "vibration", "input_torque"),
+    signals=("transmission_error", "vibration", "hysteresis", "input_torque"),
 )  # fmt: skip
 
 
