@@ -25,7 +25,8 @@ class Counts(NamedTuple):
 
     @property
     def words(self) -> str:
-        found = f", {len(self.found)} {'was' if len(self.found) == 1 else 'were'} looked for to meet the catalogue ({', '.join(self.found)})" if self.found else ""
+        verb = "was" if len(self.found) == 1 else "were"
+        found = f", {len(self.found)} {verb} looked for to meet the catalogue ({', '.join(self.found)})" if self.found else ""
         return (
             f"of the file's {self.whole} numbers {len(self.given)} follow from that alone ({', '.join(self.given)}){found}, {self.by_rule} come by published"
             f" rules, {self.assumed} are assumed"
