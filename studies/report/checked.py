@@ -35,7 +35,7 @@ def page_of(found: Check, targets: Sequence[Target] = ()) -> Page:
         ]),
     ]  # fmt: skip
     counts = f"{t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.lobes} lobes"
-    return Page("reducer file", found.reducer.name, counts, f"{found.outcome[0].upper()}{found.outcome[1:]}", cards, sections, found.doubts)
+    return Page("reducer file", found.reducer.name, counts, f"{found.outcome[0].upper()}{found.outcome[1:]}.", cards, sections, found.doubts)
 
 
 def table(title: str, numbers: list[Stated]) -> Table:
