@@ -69,6 +69,13 @@ class Check:
     # Of the doubts those about numbers that were completed from others than the file has now.
     outdated: list[str] = field(default_factory=list)
 
+    @property
+    def outcome(self) -> str:
+        """In the words of screen and page."""
+        if self.faults:
+            return f"cannot be made: {self.faults[0]}"
+        return "its parts fit each other" + (", but look at what is doubtful" if self.doubts else "")
+
 
 # Compliances that are zero unless somebody states them.
 RIGID = ("crank.support_compliance", "carrier.bearing_compliance", "carrier.compliance", "housing.compliance", "first_stage.compliance")

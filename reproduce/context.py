@@ -147,7 +147,8 @@ class Context:
     def life(self, name: str, *texts: str, hours: float = HOURS, tolerance: float = TOLERANCE,
              positions: int = POSITIONS) -> LifeRun:
         """A life in error-controlled jumps."""
-        label = f"{name}, {hours:.0f} h" + (f" ({', '.join(texts)})" if texts else "")
+        coarser = f", {positions} positions a turn" if positions != POSITIONS else ""
+        label = f"{name}, {hours:.0f} h{coarser}" + (f" ({', '.join(texts)})" if texts else "")
         key = ("life", name, texts, hours, tolerance, positions)
         return self.once(key, lambda: self.lived(name, texts, hours, tolerance, positions), label)
 

@@ -1,7 +1,8 @@
 """Lost motion and remaining life, looked at every ``judgement_interval`` of crank turning.
 
 Lost motion is that of the standard stiffness test at one input angle: always the same
-one, so that it changes with wear alone.  It costs two equilibria.
+one, so that it changes with wear alone.  It costs two equilibria, without the friction that holds an output while the input stands:
+what that holds depends on what was before, and a loop with it, whose middle line is read, reads somewhat more.
 
 Remaining life extrapolates along straight lines.  Depths grow in proportion to the volumes, and these at the
 rate of the last interval: the deepest place itself moves, and grows by fits and starts.  The growth of lost motion in so
@@ -16,6 +17,8 @@ from wear_fmu.contacts import read_profiles
 
 # Share of the rated torque at which lost motion is read.
 LOST_MOTION_SHARE = 0.03
+# Speed [rad/s] that stands for a standing input there: as slow as none, but nothing sticks.
+CREEPING = 1e-9
 # Torque over the rated one that no RV reducer survives: catalogues allow 2.5 times at starts and 5 times once in an emergency stop
 # (Nabtesco, RV-E and RV-N series: momentary maximum torque).
 MOST_RATED = 5.0
@@ -51,6 +54,8 @@ def measure_lost_motion(records):
     p.ideal_output = p.cage = 0.0
     p.crank_angle = p.output_angle = p.cage_angle = 0.0
     read_profiles(w, 0.0, w.mesh_profile_error, w.roller_profile_error)
+    if p.input_speed == 0.0:
+        p.input_speed = CREEPING
     torque = LOST_MOTION_SHARE * r.rated_torque
     found_forward, forward = turning_under(p, torque, r.z_forward)
     found_backward, backward = turning_under(p, -torque, r.z_backward)

@@ -119,8 +119,9 @@ def judgement(z: Variable) -> list[Variable]:
         depth("worst_flank_depth", "all flanks"),
         depth("worst_pin_depth", "all pins"),
         depth("worst_race_depth", "all raceways"),
-        Variable("lost_motion", "output", "rad", "turning of the output between +3 % and -3 % of life.rated_torque, input held"
-                 " at angle 0", nominal=1e-4, path="life.lost_motion", display="arcmin"),
+        Variable("lost_motion", "output", "rad", "turning of the output between +3 % and -3 % of life.rated_torque, input at"
+                 " angle 0, without friction: the middle line of a loop with the input held, which has it, reads somewhat more",
+                 nominal=1e-4, path="life.lost_motion", display="arcmin"),
         Variable("remaining_life", "output", "s", "operating time until the first limit if wear goes on as in the last"
                  " life.judgement_interval", nominal=1e6, path="life.remaining"),
         Variable("limited_by", "output", "1", "the limit that life.remaining refers to", choices=LIMITS, path="life.limited_by"),

@@ -2,6 +2,7 @@
 
 import math
 import shlex
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -18,7 +19,7 @@ from discrepancy.campaign.guess.wishes import Wishes
 from discrepancy.campaign.guess.write import checked
 from discrepancy.compare import compare
 from discrepancy.model_file import load_model
-from fmu_src.faults import RunFault
+from fmu_src.faults import InputFault, RunFault
 from fmu_src.units import conversion
 
 
@@ -178,6 +179,24 @@ def test_a_position_in_the_head_is_the_condition_s_and_nothing_is_asked(tmp_path
     assert {"40deg", "300deg"} <= {name.removesuffix("_15rpm") for name in propose([folder], Wishes("RV20E-121")).conditions}
     assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--angle-of", "output"]) == 0
     assert capsys.readouterr().out.rstrip().endswith(f"next:\n  rvwear compare RV20E-121 {folder}")
+
+
+def test_angles_in_names_are_said_to_be_positions_by_one_option(tmp_path, capsys):
+    """An option for each condition stood there, which the first call could not have: names of conditions come out of it."""
+    folder = italian_loops(tmp_path, **{"40gradi": "Ingresso bloccato", "300gradi": "Ingresso bloccato"})
+    words = ["campaign", "from", str(folder), "--reducer", "RV20E-121", "--angle-of", "output"]
+    assert main(words) == 0
+    out = capsys.readouterr().out
+    assert f"  rvwear {shlex.join([*words, '--overwrite'])} --condition locked_at=named\n" in out
+    assert "angles of all files are taken to count from one zero" in " ".join(out.split())
+    wishes = Wishes("RV20E-121", conditions={"locked_at": "named"}, angle_of="output")
+    proposal = propose([folder], wishes)
+    assert {name: stated.get("locked_at") for name, stated in proposal.conditions.items() if "gradi" in name} == {"40gradi": "40 deg", "300gradi": "300 deg"}
+    assert not proposal.unplaced and not any("locked_at" in stated for name, stated in proposal.conditions.items() if "gradi" not in name)
+    assert main([*words, "--overwrite", "--condition", "300gradi:mounting=b"]) == 0
+    assert "count from one zero" not in " ".join(capsys.readouterr().out.split())
+    with pytest.raises(InputFault, match="40gradi:locked_at"):
+        propose([folder], replace(wishes, conditions={"40gradi:locked_at": "named"}))
 
 
 def test_a_position_that_nobody_says_is_asked_with_the_command_that_says_it(tmp_path, capsys):

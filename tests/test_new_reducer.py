@@ -56,10 +56,28 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert main(["reducer", "new", "--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--known", "pin.radius=3mm", "--output", path]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "planets of 60 and a sun of 23 teeth with 40 pins make 105.348, which the file has" in said
-    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, pin.radius 3 mm; of the file's 53 numbers these say 5, 17 come by published rules, 31 are" in said
+    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, 15 rpm of the output (usual), 16 rollers a bearing (usual), pin.radius 3 mm; of the file's 53 numbers 5 follow" in said
+    assert "from that alone (pin.radius, first_stage.ratio, input.speed, output.load_torque, wear.run_in_crank_speed), 17 come by published rules, 31 are assumed;" in said
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
+
+
+def test_what_the_catalogue_asked_for_is_counted_as_found_and_given_by_nobody(tmp_path, capsys):
+    """Seven things given were six in words and five in numbers, the supports that nobody gave among these."""
+    path = tmp_path / "mine.toml"
+    options = ["--ratio", "105", "--rated", "412", "--cranks", "2", "--speed", "15", "--diameter", "190", "--stiffness", "108", "--lost-motion", "1"]
+    assert main(["reducer", "new", *options, "--output", str(path)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output (usual), 16 rollers a bearing (usual), lost motion 1 arcmin"
+    assert f"given: {given}, torsional stiffness 108 N.m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
+    assert "2 were looked for to meet the catalogue (disc.equidistant_modification, crank.support_compliance), " in said
+    assert main(["reducer", "check", str(path)]) == 0
+    told = capsys.readouterr().out
+    assert "53 numbers stated (4 given, 2 looked for to meet the catalogue, " in told
+    # Files of a former version say that the supports were given.
+    path.write_text(path.read_text().replace('"found: makes', '"given: makes'))
+    assert main(["reducer", "check", str(path)]) == 0 and capsys.readouterr().out == told
 
 
 def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_nothing_is_left_open(tmp_path, capsys):
@@ -159,7 +177,7 @@ def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):
     assert main(["reducer", "new", "--ratio", "121", "--rated", "167", "--output", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "40 pins are assumed, as many as reducers of this kind have: count them" in said
-    assert "given: ratio 121, rated torque 167 N m; of the file's" in said
+    assert "given: ratio 121, rated torque 167 N m, 15 rpm of the output (usual), 16 rollers a bearing (usual); of the file's" in said
     assert load_reducer(path).topology.pins == 40
     text = path.read_text()
     assert "pins = 40  # assumed: nobody counted them" in text and "rvwear reducer new --ratio 121 --rated 167" in text
@@ -461,7 +479,7 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
     assert main([*words, "--stiffness", "50Nm/arcmin"]) == 0
     assert "um/kN makes the torsional stiffness that of the catalogue, 50 N.m/arcmin" in " ".join(capsys.readouterr().out.split())
     made = load_reducer("m.toml")
-    assert made.sources["crank_seat_compliance"] == "given: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
+    assert made.sources["crank_seat_compliance"] == "found: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
     assert hysteresis(made, []).stiffness_Nm_per_arcmin == pytest.approx(50.0, rel=2e-3)
     # What is far from the rules is doubtful, what nothing makes is refused.
     assert main([*words, "--stiffness", "1700Nm/deg", "--overwrite"]) == 0

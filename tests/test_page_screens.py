@@ -89,6 +89,19 @@ def test_nothing_leaves_a_narrow_page(chromium, file):
     assert page.locator("details.fold table").is_hidden()
 
 
+def test_a_long_verdict_folds_and_a_short_one_stays_on_its_line(chromium, file, tmp_path):
+    """"with other numbers than the source's, judged anew: ..." was cut off at the edge of its card on a wide screen."""
+    long = "with other numbers than the source's, judged anew: reproduced under a stated condition"
+    rows = "".join(f'<tr><td>T{k}</td><td>Wear profile, inverted W</td><td class="fair"><span class="tag">{text}</span></td></tr>' for k, text in enumerate((long, "reproduced")))
+    sheets = f'<div class="sheets"><div class="sheet"><table class="overview">{rows}</table></div><div class="sheet"></div></div>'
+    (path := tmp_path / "verdicts.html").write_text(file.read_text(encoding="utf-8").replace("</main>", f"{sheets}</main>"), encoding="utf-8")
+    for width in (1280, 390):
+        (edge, tall), (_, low) = opened(chromium, path, width, "light").evaluate(
+            "[...document.querySelectorAll('.overview .tag')].map((e) => e.getBoundingClientRect()).map((r) => [r.right, r.height])"
+        )
+        assert edge <= 0.5 * (width if width > 1000 else 2 * width) and low < 25.0 < tall
+
+
 def test_numbers_behind_bars_have_room_on_a_narrow_card(chromium, file):
     """The axis goes on behind the longest bar for what is written there."""
     high = opened(chromium, file, 390, "light").evaluate("""() => [['3,880,000'], ['3']].map((text) => narrowed({ height: 100 },

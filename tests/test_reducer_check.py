@@ -96,6 +96,10 @@ def test_the_command_completes_what_is_rigid(tmp_path, capsys, monkeypatch):
     told = json.loads(shown.out.partition("\nmine.html")[0])
     assert told["faults"] == [] and "so rigid" in told["doubts"][0]
     assert {p.name for p in tmp_path.iterdir()} == {"mine.html", "mine.svg", "mine_teeth.svg"}
+    page, found = (tmp_path / "mine.html").read_text(), check(load_reducer(MINE))
+    assert found.outcome == "its parts fit each other, but look at what is doubtful" and "Its parts fit each other, but look at what is doubtful" in page
+    # A pin's diameter of 5 mm beside "pins up to 5.042 mm" read as nearly undercut, one of 7 mm as undercut.
+    assert "largest radius of pins" in page and replace(found, doubts=[]).outcome == "its parts fit each other"
     assert main(shlex.split(told["completing"])[1:]) == 0
     completed = check(load_reducer("mine_completed.toml"))
     assert not completed.doubts and not completed.faults and not completed.completing

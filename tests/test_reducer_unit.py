@@ -12,6 +12,7 @@ from fmu_src.package import build_fmu, build_native, triples_for
 from orchestrator.component import InProcess
 from orchestrator.opening import open_fmu
 from orchestrator.settings import Setting
+from reducers.reducer import load_reducer
 from rv_reducer.reducer import OF_WEAR
 from rv_reducer.variables import LIMITS
 from studies.hysteresis import hysteresis
@@ -107,6 +108,16 @@ def test_lost_motion_is_that_of_the_stiffness_test(rv20e):
     assert unit.get("lost_motion") * ARCMIN == pytest.approx(hysteresis(rv20e, []).lost_motion_arcmin, rel=0.15)
     wider = run_with_wear(rv20e, 1, bearing_clearance=10e-6)
     assert wider.get("lost_motion") > 2.0 * unit.get("lost_motion")
+
+
+def test_lost_motion_is_the_same_whether_the_input_stands_or_turns():
+    """What friction held while the input stood was in that of the new reducer, and was taken for wear's once it turned."""
+    reducer = load_reducer("RV20E-121")
+    standing, turning = (run(make_unit(reducer, **values), 0, 1.0) for values in ({"input_speed": 0.0}, {}))
+    assert standing.number("lost_motion") == pytest.approx(turning.number("lost_motion"), rel=1e-9) and standing.number("input_speed") == 0.0
+    smooth = [Setting(name, 0.0) for name in ("mesh_friction", "mesh_friction_excess")]
+    without, loop = (hysteresis(reducer, settings, locked_at=0.0).lost_motion_arcmin for settings in (smooth, []))
+    assert standing.number("lost_motion") * ARCMIN == pytest.approx(without, rel=1e-4) and loop > 1.005 * without
 
 
 @pytest.mark.parametrize("flavour", ["kernels", "python", "fmi2", "fmi3"])

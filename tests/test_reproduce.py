@@ -15,6 +15,7 @@ from fmu_src.faults import InputFault
 from reproduce import kept, rig, wall
 from reproduce import printed_forms as printed
 from reproduce.claim import CONDITIONAL, FALLEN, REGISTRY, REPRODUCED, SOURCES, VERDICTS, Number
+from reproduce.context import BX, Context
 from reproduce.judging import run
 from reproduce.moved import unmoved_in
 from reproduce.page import page_of, write_page
@@ -143,6 +144,16 @@ def test_progress_is_told():
     lines = []
     run(["T01", "T04"], lines.append)
     assert [line.split()[1] for line in lines] == ["T01", "T04"]
+
+
+def test_a_coarser_run_is_not_called_as_the_one_it_is_held_against(monkeypatch):
+    """"run BX-40E, 10000 h" stood there twice."""
+    lines = []
+    context = Context(lines.append)
+    monkeypatch.setattr(context, "lived", lambda *more: None)
+    context.life(BX)
+    context.life(BX, positions=24)
+    assert [line.strip() for line in lines] == ["BX-40E, 10000 h", "BX-40E, 10000 h, 24 positions a turn"]
 
 
 def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):

@@ -9,7 +9,7 @@ def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
         held.append(route)
 
     page.goto(bench.address)
-    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": ""}))
+    page.route("**/results/life", lambda route: route.fulfill(json={"title": "a life", "panes": [], "hours": [0, 1], "file": "x", "command": "", "size": 5130000}))
     page.route("**/results/life/report*", asked)
     page.evaluate("""async () => {
       const { show } = await import('./static/life.js'), state = { jobs: { life: { state: 'done', result: true, given: { model: 'RV20E-121' } } } };
@@ -17,8 +17,11 @@ def test_the_report_of_a_life_says_that_it_draws_until_it_is_there(bench):
       place.replaceChildren();
       show(place, { state, busy: () => '', model: () => 'RV20E-121', modelChooser: () => document.createElement('span') });
     }""")
-    word = page.get_by_text("Drawing the report…")
+    word = page.get_by_text("The report is being drawn, a page of 5.1 MB…")
     word.wait_for()
+    # Where the eye is: in the empty box, whose report is offered in a tab above it.
+    inside, frame, tab = (page.locator(name).bounding_box() for name in ("div.report > p", "iframe.report", "a:has-text('in a tab of its own')"))
+    assert frame["y"] <= inside["y"] and inside["y"] + inside["height"] <= frame["y"] + frame["height"] + 10 and tab["y"] < frame["y"]
     while not held:
         page.wait_for_timeout(50)
     held[0].fulfill(body="<p>report</p>", content_type="text/html")

@@ -91,3 +91,19 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_and_a_box_refuses_one_th
     assert page.locator("[id='n-bearing.clearance']").is_visible() and page.get_by_text("as it could last be made").is_visible()
     page.fill("#ask-lost_motion", "1")
     page.get_by_text("as it could last be made").wait_for(state="detached")
+
+
+def test_names_in_a_card_fold_on_a_narrow_screen(bench):
+    """``disc.equidistant_modification`` left the card of the lost motion, and the screen."""
+    page = bench.page
+    page.goto(bench.address)
+    page.set_viewport_size({"width": 390, "height": 844})
+    note = "1 of the catalogue; taken for it: disc.equidistant_modification = 3.25 µm"
+    over = page.evaluate("""async (note) => {
+      const { cards } = await import('./static/page.js'), card = { label: 'lost motion', value: '1', unit: 'arcmin', tone: 'plain', note };
+      document.getElementById('view').replaceChildren(cards([card, card]));
+      const edges = [...document.querySelectorAll('.card')].map((c) => [c.scrollWidth, c.clientWidth]);
+      return [...edges, [document.documentElement.scrollWidth, 390]];
+    }""", note)
+    page.set_viewport_size({"width": 1280, "height": 900})
+    assert all(needs <= has for needs, has in over), over

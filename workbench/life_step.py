@@ -67,6 +67,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     write_json(place / "result.json", {
         **curves([float(h) for h in dataset["hour"].values], figures), "model": str(given["model"]), "file": path.relative_to(folder.root).as_posix(),
         "title": dataset.attrs["title"], "command": command(file, hours, texts, path),
+        "size": (place / "report.html").stat().st_size,
     })  # fmt: skip
     return False
 

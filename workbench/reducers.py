@@ -121,7 +121,7 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
         source = reducer.sources.get(name, "")
         rows.append({
             "name": variable.path, "value": text, "unit": "" if unit == "1" or variable.choices else unit, "meaning": variable.description, "source": source,
-            "assumed": source.startswith(("assumed", "completed")), "outside": bool(low > value or high < value),
+            "assumed": source.startswith(("assumed", "completed", "found")), "outside": bool(low > value or high < value),
             "range": f"{number(factor * low + offset)} to {number(factor * high + offset)}" if math.isfinite(low) else "",
         })  # fmt: skip
     return rows

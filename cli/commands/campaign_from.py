@@ -45,7 +45,8 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--scale", "COLUMN=FACTOR", "what a column is multiplied by ('y=0.001'; -1: the other sense); FILES:COLUMN=FACTOR for some files"),
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
-        ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition"),
+        ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition; locked_at=named: the input of loops was"
+         " locked at the one angle that their names hold"),
         ("--tag", "KEY=WORD", "what measurements are of: locked=input or output; surface=flank, pin, inner_race or outer_race; disc=1 ..."),
         ("--zero", "QUANTITY=absolute", "the zero of transmission_error, hysteresis or transmission_order is known, so that its mean counts"
          " (default: free, it is taken off)"),
@@ -108,7 +109,7 @@ def run_from(options: argparse.Namespace) -> int:
         print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, [*proposal.needs, *ready])}")
     else:
         if proposal.unplaced:
-            print(f"where the input was locked is said by\n  {again(options, proposal.unplaced)}")
+            print(f"where the input was locked is said by (next time with the first call)\n  {again(options, proposal.unplaced)}")
         if proposal.doubts or findings:
             command = f"{shlex.join(['rvwear', 'campaign', 'check', str(folder)])}\n  {command}"
         print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")

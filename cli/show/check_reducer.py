@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 
 from cli.screen import WIDTH, console, dense, styled
 from reducers.checking import STATED, Check
-from reducers.completion.complete import COMPLETED
+from reducers.completion.again import STIFF
+from reducers.completion.complete import COMPLETED, LEAST, MEETS
 from reducers.completion.known import FROM_OPTIONS
 from studies.catalogue_targets import Target
 
@@ -23,7 +24,7 @@ def show(found: Check, targets: Sequence[Target]) -> None:
             table.add_row(n.name, f"{n.value:.4g}", n.unit, span, n.source)
         out.print(table)
     f = found.figures
-    out.print(f"ratio {f['ratio']:.4g}, K1 = {f['K1']:.3f}, K2 = {f['K2']:.3f}, pins up to {f['largest_pin_mm']:.4g} mm without undercut")
+    out.print(f"ratio {f['ratio']:.4g}, K1 = {f['K1']:.3f}, K2 = {f['K2']:.3f}, pins of up to {f['largest_pin_mm']:.4g} mm radius without undercut")
     if targets:
         out.print(f"of the catalogue: {'; '.join(target.words for target in targets)}")
     for text in found.doubts:
@@ -38,14 +39,18 @@ def show(found: Check, targets: Sequence[Target]) -> None:
     elif found.completing:
         out.print(f"to have them completed by design rules, with ranges:\n  {found.completing}", soft_wrap=True)
     if not found.faults:
-        out.print("its parts fit each other" + (", but look at what is doubtful" if found.doubts else ""))
+        out.print(found.outcome)
 
 
 def stated_words(sources: Mapping[str, str]) -> str:
     """How many numbers a file states, by name, and how many of them by what else than a source of their own; what ratio, torque and speed say
     of a completed file counts as given, as it does where it is completed."""
     own = [source for name, source in sources.items() if name not in FROM_OPTIONS]
+    found = [source for source in own if STIFF.match(source) or source.startswith((MEETS, LEAST))]
+    own = [source for source in own if source not in found]
     assumed = sum("assumed" in source for source in own)
     by_rule = sum(source.startswith(COMPLETED) and "assumed" not in source for source in own)
-    parts = [f"{count} {words}" for count, words in ((len(sources) - assumed - by_rule, "given"), (by_rule, "by rule"), (assumed, "assumed")) if count]
-    return f"{len(sources)} numbers stated" + (f" ({', '.join(parts)})" if assumed or by_rule else "")
+    given = len(sources) - len(found) - assumed - by_rule
+    counts = ((given, "given"), (len(found), "looked for to meet the catalogue"), (by_rule, "by rule"), (assumed, "assumed"))
+    parts = [f"{count} {words}" for count, words in counts if count]
+    return f"{len(sources)} numbers stated" + (f" ({', '.join(parts)})" if len(parts) > 1 else "")

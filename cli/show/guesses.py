@@ -10,6 +10,13 @@ from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.in_columns import said_by_columns
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
 from discrepancy.campaign.guess.whose_angle import over_output
+from discrepancy.problem import WITH_ZERO
+
+# What is assumed of encoders as long as nobody says a mounting.
+ONE_ZERO = (
+    "angles of all files are taken to count from one zero, as of encoders that stayed in place; where unit or encoder was taken off in between,"
+    " --condition NAME:mounting=WORD says which conditions are of another mounting"
+)
 
 
 def show(proposal: Proposal, findings: Sequence[Finding] = (), reducer_given: bool = False) -> None:
@@ -40,6 +47,10 @@ def show(proposal: Proposal, findings: Sequence[Finding] = (), reducer_given: bo
         by_column = said_by_columns([run.guessed for run in proposal.runs if run.condition == name], stated)
         said = [f"{key} {value}" for key, value in stated.items()] + [f"{key} {' and '.join(levels)} by its column" for key, levels in by_column.items()]
         out.print(f"condition {name}: {', '.join(said) or 'nothing is said'}{kept}")
+    if len(proposal.conditions) > 1 and not any("mounting" in stated for stated in proposal.conditions.values()) and any(
+        run.guessed.quantity.value in WITH_ZERO for run in proposal.runs
+    ):
+        out.print(ONE_ZERO)
     if proposal.reducer and proposal.reducer == proposal.named:
         told = "given; lines above the tables say the same" if reducer_given else "as lines above the tables say; --reducer takes another, or a reducer file"
         out.print(f"reducer {proposal.reducer}: {told}")

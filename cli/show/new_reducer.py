@@ -9,10 +9,10 @@ from cli.screen import WIDTH, console, dense, styled
 from fmu_src.display import read_text
 from reducers.completion.command import given_words
 from reducers.completion.compare import Row
-from reducers.completion.complete import AS_STIFF, COMPLETED, GIVEN, Completion
+from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, Completion
+from reducers.completion.counts import counts_of
 from reducers.completion.doubts import FREE
 from reducers.completion.given import GAP
-from reducers.completion.known import FROM_OPTIONS
 from studies.catalogue_lost_motion import CLEARANCE, clearance_for
 from studies.catalogue_targets import LOST_MOTION, STIFFNESS, Target
 from studies.completed_ranges import Influence, what_matters
@@ -35,14 +35,11 @@ def show(completion: Completion, name: str, file: Path, test: Hysteresis | None,
     console(WIDTH).print(table)
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
-    numbers = completion.numbers.values()
     if (free := completion.numbers[FREE]).source.startswith(AS_STIFF):
-        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {free.source.removeprefix(f'{GIVEN}: ')}")
-    given, assumed = sum(n.is_given or n.name in FROM_OPTIONS for n in numbers), sum("assumed" in n.source for n in numbers)
-    said = given_words(completion.given)
+        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {free.source.removeprefix(f'{FOUND}: ')}")
     console().print(
-        f"given: {said}; of the file's {len(numbers)} numbers these say {given}, {len(numbers) - given - assumed} come by published rules,"
-        f" {assumed} are assumed; each stands in the file with its range and its rule in full, --known NAME=VALUE replaces one and what hangs on it"
+        f"given: {given_words(completion.given)}; {counts_of(completion).words}; each stands in the file with its range and its rule in full,"
+        " --known NAME=VALUE replaces one and what hangs on it"
     )
     for note in completion.left_open:
         console().print(note)

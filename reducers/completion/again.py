@@ -14,7 +14,7 @@ from fmu_src.faults import InputFault
 from fmu_src.table import Table
 from fmu_src.units import conversion
 from reducers.completion.command import PINS_ASSUMED, described, usual_name, words_of
-from reducers.completion.complete import AS_STIFF, COMPLETED, LEAST, MEETS, RULES, UNITS, complete, dials_for, numbers_of
+from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, GIVEN, LEAST, MEETS, RULES, UNITS, complete, dials_for, numbers_of
 from reducers.completion.dials import dials_of
 from reducers.completion.doubts import FREE, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
 from reducers.completion.given import GAP, PLAY, SHIFT, SUN, Given
@@ -27,7 +27,8 @@ from rv_plant.topology import Topology
 SPEED = re.compile(r"(?:speed of|N m at) ([\d.e+-]+) rpm")
 GAP_RANGE = re.compile(r"gap by (?:equidistant|shift) modification 0 to ([\d.e+-]+) arcmin")
 MET = re.compile(rf"(?:{MEETS}|{LEAST}), ([\d.e+-]+) arcmin")
-STIFF = re.compile(rf"{re.escape(AS_STIFF)}, ([\d.e+-]+) N\.m/arcmin")
+# Files of former versions said that it was given.
+STIFF = re.compile(rf"(?:{GIVEN}|{FOUND}){re.escape(AS_STIFF.removeprefix(FOUND))}, ([\d.e+-]+) N\.m/arcmin")
 FIGURE = r"([0-9.e+]+)"
 NAMED = re.compile(f"ratio-{FIGURE}-{FIGURE}Nm")
 DESCRIBED = re.compile(f"(ratio {FIGURE}, rated {FIGURE} N m at {FIGURE} rpm).*, completed by design rules")
@@ -114,13 +115,13 @@ def doubts_again(reducer: Reducer) -> list[str]:
 
 def stiff_again(given: Given, numbers: Mapping[str, float], sources: Mapping[str, str]) -> list[str]:
     """Whether the supports that make a catalogue's stiffness are far from those by rules."""
-    if not sources.get(FREE, "").startswith(AS_STIFF):
+    if not (told := STIFF.match(sources.get(FREE, ""))):
         return []
     try:
         by_rules = complete(replace(given, known={name: value for name, value in given.known.items() if name != FREE})).numbers[FREE]
     except InputFault:
         return []
-    return stiffness_doubt(sources[FREE].removeprefix(f"{AS_STIFF}, "), numbers[FREE], by_rules.low, by_rules.high, by_rules.unit, given.diameter)
+    return stiffness_doubt(f"{told[1]} N.m/arcmin", numbers[FREE], by_rules.low, by_rules.high, by_rules.unit, given.diameter)
 
 
 def command(reducer: Reducer, measured: Collection[str] = ()) -> str:

@@ -60,4 +60,4 @@ def against(completion: Completion, full: Reducer) -> list[Row]:
 def published(number: Number) -> bool:
     """Whether the number has a dial of its own, and that one a range that is not assumed."""
     own = number.name == "pin.circle_radius" or RULES.get(number.name, ("", ""))[1] != ""
-    return own and not number.is_given and "assumed: " not in number.source
+    return own and not (number.is_given or number.is_found) and "assumed: " not in number.source

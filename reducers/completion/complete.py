@@ -40,9 +40,9 @@ RULES = {
 } | SUPPORT_RULES  # fmt: skip
 # None of these may move alone: races and rollers fit each other, teeth are whole.
 NOT_ALONE = ("inner_race.radius", "outer_race.radius", "roller.radius", "first_stage.sun_teeth")
-COMPLETED, GIVEN = "completed", "given"
+COMPLETED, GIVEN, FOUND = "completed", "given", "found"
 # Source of crank supports: how soft they are in place is what rules leave open, and what they were fitted for to catalogues.
-AS_STIFF = f"{GIVEN}: makes the torsional stiffness that of the catalogue"
+AS_STIFF = f"{FOUND}: makes the torsional stiffness that of the catalogue"
 # Sources of what the stiffness test asks for, of the gap of the flanks first: no numbers of the catalogue, and none that were measured.
 MEETS = f"{COMPLETED}: makes the lost motion that of the catalogue"
 LEAST = f"{COMPLETED}: the least of its range, for the lost motion of the catalogue"
@@ -73,6 +73,11 @@ class Number:
         return self.source.startswith(GIVEN)
 
     @property
+    def is_found(self) -> bool:
+        """Whether it was looked for, so that a figure of the catalogue is met: nobody gave it."""
+        return self.source.startswith((FOUND, MEETS, LEAST))
+
+    @property
     def as_read(self) -> "Number":
         """In the unit that people read it in: compliances in um/kN and arcmin/(N.m)."""
         unit, (value, low, high) = read_in(self.unit, self.value, self.low, self.high)
@@ -91,7 +96,7 @@ class Completion:
     @property
     def left_open(self) -> list[str]:
         """What the rules leave open of any reducer, unless it was given: how soft its crank supports are."""
-        return [] if self.numbers[FREE].is_given else [SUPPORTS]
+        return [] if self.numbers[FREE].is_given or self.numbers[FREE].is_found else [SUPPORTS]
 
 
 def complete(given: Given) -> Completion:

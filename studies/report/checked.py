@@ -25,7 +25,7 @@ def page_of(found: Check, targets: Sequence[Target] = ()) -> Page:
     t, filled = found.reducer.topology, [n for n in found.numbers if n.kind != STATED]
     cards = [
         Card("ratio", f"{found.figures['ratio']:.4g}"), Card("K1 = e z_p / R_p", f"{found.figures['K1']:.3f}", "below 1; 0.65 to 0.9 is usual"),
-        Card("largest pin", f"{found.figures['largest_pin_mm']:.4g}", "without undercut", unit="mm"),
+        Card("largest radius of pins", f"{found.figures['largest_pin_mm']:.4g}", "without undercut", unit="mm"),
         Card("filled in", str(len(filled)), f"of {len(found.numbers)} numbers"), *map(target_card, targets),
     ]  # fmt: skip
     sections = [
@@ -34,9 +34,8 @@ def page_of(found: Check, targets: Sequence[Target] = ()) -> Page:
             table("Not stated", [n for n in found.numbers if n.kind != STATED]), table("Stated", [n for n in found.numbers if n.kind == STATED]),
         ]),
     ]  # fmt: skip
-    outcome = f"Cannot be made: {found.faults[0]}" if found.faults else "The parts fit each other."
     counts = f"{t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.lobes} lobes"
-    return Page("reducer file", found.reducer.name, counts, outcome, cards, sections, found.doubts)
+    return Page("reducer file", found.reducer.name, counts, f"{found.outcome[0].upper()}{found.outcome[1:]}.", cards, sections, found.doubts)
 
 
 def table(title: str, numbers: list[Stated]) -> Table:

@@ -7,7 +7,7 @@ from pages import look
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
 from reducers.completion.complete import Completion
-from reducers.completion.known import FROM_OPTIONS
+from reducers.completion.counts import counts_of
 from reducers.reducer import Reducer
 from studies.catalogue_targets import Target
 from studies.completed_ranges import HOURS, RING_ERROR, THROW_ERROR, Influence, what_matters
@@ -20,8 +20,6 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence], ta
     """``found`` may be empty: then nothing is said of signals; ``targets``: what the catalogue says of it."""
     given = completion.given
     whole = assembly(reducer, given.diameter)
-    # Ratio, pins, torque and cranks are numbers of the file, too.
-    known = sum(number.is_given or number.name in FROM_OPTIONS for number in completion.numbers.values())
     cards = [card(completion, name, label) for name, label in (
         ("pin.circle_radius", "pin circle radius"), ("pin.radius", "pin radius"), ("crank.eccentricity", "eccentricity"), ("mesh.width", "width of a disc"),
     )] + [target_card(target) for target in targets]  # fmt: skip
@@ -33,7 +31,7 @@ def page_of(completion: Completion, reducer: Reducer, found: list[Influence], ta
     ]  # fmt: skip
     return Page(
         "completed reducer", reducer.name, f"ratio {given.ratio:g}, {given.pins} pins, {given.rated:g} N m at {given.speed:g} rpm",
-        f"{known} number{'s' * (known > 1)} given, {len(completion.numbers) - known} completed by design rules", cards, sections,
+        counts_of(completion).short, cards, sections,
         [*completion.doubts, *completion.left_open],
     )  # fmt: skip
 

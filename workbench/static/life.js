@@ -203,22 +203,27 @@ export function show(root, context) {
       result
         ? [
             h("h2", {}, "On the parts, over the turn, by order"),
-            (drawing = h("p", { class: "quiet", role: "status" }, "Drawing the report…")),
-            (report = h("iframe", {
-              class: "report",
-              src: embedded(),
-              title: "report of the life",
-              sandbox: "allow-scripts",
-              onload: () => {
-                drawing.hidden = true;
-              },
-            })),
             h(
               "p",
-              { class: "quiet small" },
-              `kept in ${result.file}; `,
-              h("a", { href: "results/life/report", target: "_blank", rel: "noopener" }, "the report in a tab of its own"),
+              { class: "row" },
+              h("a", { class: "button", href: "results/life/report", target: "_blank", rel: "noopener" }, "Open the report in a tab of its own"),
+              h("span", { class: "quiet small" }, "below it scrolls inside its frame"),
             ),
+            h(
+              "div",
+              { class: "report" },
+              (drawing = h("p", { class: "quiet", role: "status" }, `The report is being drawn${result.size ? `, a page of ${number(result.size / 1e6, 2)} MB` : ""}…`)),
+              (report = h("iframe", {
+                class: "report",
+                src: embedded(),
+                title: "report of the life",
+                sandbox: "allow-scripts",
+                onload: () => {
+                  drawing.hidden = true;
+                },
+              })),
+            ),
+            h("p", { class: "quiet small" }, `kept in ${result.file}`),
             command(result.command),
           ]
         : null,

@@ -21,14 +21,14 @@ from discrepancy.campaign.guess.held_out import held_out
 from discrepancy.campaign.guess.in_columns import different_in_columns
 from discrepancy.campaign.guess.lacking import lacking
 from discrepancy.campaign.guess.measured import with_given_instead, with_measured_joined
-from discrepancy.campaign.guess.positions import positions_asked
+from discrepancy.campaign.guess.positions import angle_for, positions_asked
 from discrepancy.campaign.guess.run import GuessedRun, guessed_run, is_meant
 from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize, Unplaced
 from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, written_alike
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.told_once import merged
 from discrepancy.campaign.guess.whose_angle import whose_angle
-from discrepancy.campaign.guess.wishes import OPEN, Wishes, of_column
+from discrepancy.campaign.guess.wishes import NAMED, OPEN, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
@@ -148,6 +148,8 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
     given = {key: spaced(text) for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
+    if LOCKED_AT in given and (angle := angle_for(run, given.pop(LOCKED_AT))):
+        given[LOCKED_AT] = angle
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label), run.quantity.value not in HELD)
 
 
@@ -192,7 +194,7 @@ def require_numbers(wishes: Wishes) -> None:
     """InputFault for a number of a condition that is none, or has a unit of another kind: said here, where it was typed."""
     for given, text in wishes.conditions.items():
         name = given.rpartition(":")[2]
-        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN):
+        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN) and (given, text) != (LOCKED_AT, NAMED):
             ANY_REDUCER.number(FACTOR_KEYS[name], text, f"--condition {given}")
 
 
@@ -220,7 +222,7 @@ def said_otherwise(run: GuessedRun, wishes: Wishes) -> list[Doubt]:
     said = {key: guess.value for key, guess in run.factors.items()}
     return [
         Doubt(run.path.name, f"says {key} = {said[key]}, which is kept, not {text}", f"--condition 'NAME:{key}={text}' for the condition of that name")
-        for key, text in wishes.conditions.items() if key in said and figure_of(key, said[key]) != figure_of(key, text)
+        for key, text in wishes.conditions.items() if key in said and text != NAMED and figure_of(key, said[key]) != figure_of(key, text)
     ]
 
 

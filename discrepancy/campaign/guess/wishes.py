@@ -18,6 +18,8 @@ OPEN = "..."
 OUTPUT, INPUT = "output", "input"
 # Whether the mean of a quantity counts: from a zero that is known, or not.
 ABSOLUTE, FREE = "absolute", "free"
+# As ``locked_at``: the one angle in the name of each loop is where its input was locked.
+NAMED = "named"
 
 Value = TypeVar("Value")
 
