@@ -15,7 +15,7 @@ from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.inference.verdict import NONE
-from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.key_figures import KeyFigure
 from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
@@ -23,6 +23,7 @@ from discrepancy.next_run import NextRun
 from discrepancy.prediction.orders import apart_from_remark
 from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
+from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
@@ -81,25 +82,25 @@ def show_comparison(comparison: Comparison) -> None:
 
 
 def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "") -> None:
-    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest.
+    """Key figures, a row for each kind with the condition where it is furthest off; the signal first that has the furthest.
 
     ``after``: the same with what was ``added`` to the model, if anything was.
     """
-    worst = furthest(figures)
-    if not worst:
+    told = told_figures(figures)
+    if not told:
         return
     table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else "")
                   + (f", and with {added} in it" if after else ""))  # fmt: skip
     more = {id(f): changed for f, changed in zip(figures, after)}
     heads = ("figure", "condition", "measured", "noise", "model", *["with it"] * bool(after), "", "off/noise")
     numbers = ("measured", "noise", "model", "with it", "off/noise")
-    rows = figure_rows(worst[:LONGEST], more)
+    rows = figure_rows(told, more)
     fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=[name for name in heads if name in numbers])
     out.print(table)
-    for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in worst[:LONGEST]))):
+    for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in told))):
         out.print(remark)
-    if len(figures) > min(len(worst), LONGEST):
-        out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
+    if others := others_text(figures):
+        out.print(f"{others}: --json lists all")
 
 
 def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) -> list[tuple[str, ...]]:

@@ -6,12 +6,13 @@ from typing import Any
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.compare import CONSPICUOUS, Comparison, deviations_of
 from discrepancy.inference.chance import chance
-from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis, of_parameter
+from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
@@ -20,7 +21,6 @@ from pages.words import counted, number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6
-FEW_FIGURES = 12
 
 
 def page(result: Comparison) -> Page:
@@ -204,11 +204,10 @@ def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool)
     )
     if calibrated:
         lead += " The model's are those after its calibration to this campaign; rvwear hysteresis and bench give them without it."
-    if len(figures) <= FEW_FIGURES:
+    if not (others := others_text(figures)):
         return [Section("figures", "Key figures", lead, [], [figures_table(figures, calibrated)])]
-    worst = furthest(figures)[:FEW_FIGURES]
-    tables = [figures_table(worst, calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]
-    return [Section("figures", "Key figures", lead + f" Of {len(figures)} each is shown where it is furthest off.", [], tables)]
+    tables = [figures_table(told_figures(figures), calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]
+    return [Section("figures", "Key figures", f"{lead} Shown are {others}.", [], tables)]
 
 
 def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
