@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
+from discrepancy.calibrated_deviations import deviations_of
 from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
@@ -23,7 +24,6 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.locked_doubts import locked_doubts
@@ -31,6 +31,7 @@ from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
+from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.prediction.defined_samples import FLOATING, defined_at
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -127,7 +128,7 @@ def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fi
     """What of the model was calibrated to the campaign before it was held against it, a line for each meaning; empty for nothing.
 
     ``angle_zero[1] = -62.87 +- 0.02 arcmin, angle_zero[2] = 3.1 +- 0.02 arcmin: output angle of the model at the record's angle 0``: with the standard
-    deviation that noise leaves, within which a calibration beside other effects finds another number.
+    deviation, where it is known, within which a calibration beside other effects finds another number.
     """
     deviations = deviations_of(base) if base else {}
     meanings = {p.name: p.description for p in model.nuisances}
@@ -137,11 +138,6 @@ def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fi
         lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {with_deviation(value, deviations.get(own, 0.0), scale)}")
     known = set(meanings.values())
     return [", ".join(numbers) + (f": {meaning}" if meaning in known else "") for meaning, numbers in lines.items()]
-
-
-def deviations_of(base: Fit) -> dict[str, float]:
-    """By calibrated number the standard deviation (SI) that noise leaves."""
-    return dict(zip(base.names, map(float, np.sqrt(np.diag(covariance_of(base))))))
 
 
 def with_deviation(value: float, deviation: float, scale: Scale) -> str:
@@ -159,7 +155,8 @@ def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> lis
     found = []
     for name, value in values.items():
         unit, least = (known[name].unit, ROUNDING * known[name].scale) if name in known else ("1", 0.0)
-        told = 0.0 if abs(value) < least else value
+        # A share at its bound is 0 but for what a solver leaves, here as in what is said against it.
+        told = 0.0 if abs(value) < least else round(value, 4) if name == LAG_SHARE else value
         found.append((as_told.told_name(name, tables), told, of_parameter(abs(told), unit)))
     return found
 

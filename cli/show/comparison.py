@@ -9,6 +9,7 @@ from rich.table import Table
 from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
@@ -76,6 +77,8 @@ def show_comparison(comparison: Comparison) -> None:
         out.print("calibrated to this campaign before anything was compared:")
         for text in calibrated_texts(comparison.model, comparison.nuisances, comparison.diagnostician.space.base):
             out.print(f"  {text}")
+        if unsure := unsure_text(comparison.diagnostician.space.base):
+            out.print(f"  {unsure}")
     show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)

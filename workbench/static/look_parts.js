@@ -227,6 +227,7 @@ export const notes = (result, context) =>
             ["calibrated", "value", "meaning"],
             result.calibrated.map((c) => [words(c.name), c.value, c.meaning]),
           ),
+          result.unsure ? h("p", { class: "quiet small" }, result.unsure) : null,
         )
       : null,
   );
