@@ -150,7 +150,7 @@ def test_what_one_effect_may_come_from_is_said():
     """An oval ring may have been ground so or be clamped so: `campaign check` asked for the ring to be turned, and nothing was left to ask here."""
     error = Record("te", "transmission_error", "rad", "c", 1, np.zeros(5), {"angle": np.linspace(0.0, 7.0, 5)}, {"direction": 1.0})
     campaign = replace(CAMPAIGN, records=(error,), conditions={"c": SimpleNamespace(interventions=())})
-    asked = "whether it is pin position errors, or ring ovality or clamping, this campaign does not tell"
+    asked = "whether it is the pins' own places, or an oval or clamped ring, this campaign does not tell"
     # First, for it is what is open.
     answer = answer_of(ONE, ["pin_position_errors"])
     answer.effects.append({"parameters": {"pin_ring_ovality": {}}})

@@ -21,6 +21,7 @@ from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
+from discrepancy.pin_shapes import shape_text
 from discrepancy.prediction.orders import apart_from_remark
 from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
@@ -156,6 +157,8 @@ def show_answer(answer: Answer) -> None:
     for effect in answer.effects:
         variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
+        if shape := shape_text(effect, answer.model.campaign):
+            out.print(f"  {shape}")
         if effect["forms"]:
             # Each is added by itself: whose a value is says its heading.
             for form, names in effect["forms"].items():
