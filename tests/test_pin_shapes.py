@@ -30,3 +30,11 @@ def test_the_headline_says_the_shape_and_its_reserve():
 def test_other_effects_and_a_single_pin_keep_their_names():
     assert shape_text({"name": "ring_stiffness", "parameters": {}}, campaign()) == ""
     assert shape_text({"name": "pin_position_errors", "variant": "proud", "parameters": {"proud_pin": {}}}, campaign()) == ""
+
+
+def test_an_oval_says_of_what_its_amplitude_is():
+    """"pin ring oval, amplitude 4.001 um" may have been of the radius or the diameter, peak to valley or half of it."""
+    from rv_plant.effects.pin_position_errors import EFFECT
+
+    said = {p.variable.name: p.variable.description for p in EFFECT.parameters}
+    assert all("amplitude of the radius: half of peak to valley" in said[name] for name in ("pin_ring_ovality", "pin_ring_trilobe"))

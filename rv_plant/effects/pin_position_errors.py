@@ -28,10 +28,10 @@ EFFECT = Effect(
         amplitude("pin_ring_runout", "m", "pin ring off centre", 3 * UM, -50 * UM, 50 * UM, sign=1, group="runout"),
         shape("pin_ring_runout_angle", "rad", "direction in which the ring is off centre", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 1.5708, 3.1416, 4.7124), group="runout"),
-        amplitude("pin_ring_ovality", "m", "pin ring oval, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="ovality"),
+        amplitude("pin_ring_ovality", "m", "pin ring oval, amplitude of the radius: half of peak to valley", 3 * UM, -50 * UM, 50 * UM, sign=1, group="ovality"),
         shape("pin_ring_ovality_angle", "rad", "direction of the long axis of the oval ring", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.7854, 1.5708, 2.3562), group="ovality"),
-        amplitude("pin_ring_trilobe", "m", "pin ring with three lobes, amplitude", 3 * UM, -50 * UM, 50 * UM, sign=1, group="trilobe"),
+        amplitude("pin_ring_trilobe", "m", "pin ring with three lobes, amplitude of the radius: half of peak to valley", 3 * UM, -50 * UM, 50 * UM, sign=1, group="trilobe"),
         shape("pin_ring_trilobe_angle", "rad", "direction of one of the three lobes", 0.0, -20.0, 20.0, "assumed",
               grid=(0.0, 0.5236, 1.0472, 1.5708), group="trilobe"),
         *(
