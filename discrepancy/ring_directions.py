@@ -21,7 +21,8 @@ def seen_from_crank(effects: Sequence[Mapping[str, Any]], values: Mapping[str, f
     def told(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
         if not zeros or not name.startswith(OF_RING) or not entry.get("direction"):
             return dict(entry)
-        seen = ", ".join(f"{math.degrees(entry['value']) - zero:.2f} deg from crank 1 where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())
+        at = math.degrees(entry["value"])
+        seen = ", ".join(f"{at - zero:.2f} deg from crank 1 where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())
         meaning = f"{entry['meaning']}, " if entry.get("meaning") else ""
         return {**entry, "meaning": f"{meaning}from pin 1, which whole pitches of the pins leave open; that is {seen}, which can be carried to the part"}
 
