@@ -19,7 +19,6 @@ from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
-from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
@@ -32,12 +31,12 @@ from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
 from discrepancy.prediction.conditions import LAG_SHARE
-from discrepancy.prediction.defined_samples import FLOATING, defined_at
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import Scale, of_parameter, shown
+from discrepancy.standing_notes import floating_of, standing_notes
 from discrepancy.stiffest import too_soft
 from discrepancy.unstated_texts import place_texts
 from fmu_src.arrays import Floats
@@ -107,21 +106,6 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
     return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
-
-
-def floating_of(campaign: Campaign) -> dict[str, int]:
-    """By run, how many of its samples are not compared, because the output floats there; runs without such samples are left out."""
-    counts = {record.name: int((~defined_at(record, campaign)).sum()) for record in campaign.records}
-    return {name: count for name, count in counts.items() if count}
-
-
-def floating_text(floating: Mapping[str, int]) -> str:
-    """What of samples near no torque is said; ``floating`` holds at least one run."""
-    runs = f"run {next(iter(floating))}" if len(floating) == 1 else f"{len(floating)} runs"
-    count = sum(floating.values())
-    return (f"{count} sample{'s' * (count > 1)} of {runs} near no torque not compared: to {100 * FLOATING:g} % of the rated the"
-            " output floats, and the first samples of a loop hang on what was before it where its ways lie close, or until they join the branch that passes"
-            " there again; key figures are read without them, a lost motion not at all where one way is left out at its torque")
 
 
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
@@ -235,10 +219,8 @@ def incomplete(campaign: Campaign) -> list[str]:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
-    if floating := floating_of(model.campaign):
-        warnings.append(floating_text(floating))
+    warnings += standing_notes(model.campaign)
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
-    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.campaign.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

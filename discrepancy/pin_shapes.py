@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from discrepancy.campaign.model import Campaign
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.untold import origins_untold_of
 
 # By variant: the shape, and what a ring is that has it.
@@ -13,10 +13,10 @@ SHAPES = {
 }  # fmt: skip
 
 
-def shape_text(effect: Mapping[str, Any], campaign: Campaign) -> str:
+def shape_text(effect: Mapping[str, Any], model: PhysicalModel) -> str:
     """``an oval on which the pins of the ring stand (of their own places, or of a ring that is oval or clamped so: not told here)``; empty where the campaign
     tells it, or the effect is another."""
-    if effect["name"] != "pin_position_errors" or effect.get("variant") not in SHAPES or not origins_untold_of(effect["parameters"], campaign):
+    if effect["name"] != "pin_position_errors" or effect.get("variant") not in SHAPES or not origins_untold_of(effect["parameters"], model.campaign):
         return ""
     shape, ring = SHAPES[effect["variant"]]
     return f"{shape} on which the pins of the ring stand (of their own places, or of a ring that is {ring}: not told here)"

@@ -28,8 +28,9 @@ def test_the_headline_says_the_shape_and_its_reserve():
 
 
 def test_other_effects_and_a_single_pin_keep_their_names():
-    assert shape_text({"name": "ring_stiffness", "parameters": {}}, campaign()) == ""
-    assert shape_text({"name": "pin_position_errors", "variant": "proud", "parameters": {"proud_pin": {}}}, campaign()) == ""
+    model = SimpleNamespace(campaign=campaign())
+    assert shape_text({"name": "ring_stiffness", "parameters": {}}, model) == ""
+    assert shape_text({"name": "pin_position_errors", "variant": "proud", "parameters": {"proud_pin": {}}}, model) == ""
 
 
 def test_an_oval_says_of_what_its_amplitude_is():

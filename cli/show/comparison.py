@@ -25,6 +25,7 @@ from discrepancy.pin_shapes import shape_text
 from discrepancy.prediction.orders import apart_from_remark
 from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
+from discrepancy.standing_notes import shortened
 from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
@@ -149,7 +150,8 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
         out.print(OF_ALL)
 
 
-def show_answer(answer: Answer) -> None:
+def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
+    """``standing``: notes that a comparison, which comes first, says whole, each with its short form."""
     out = console(WIDTH)
     out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
     for text in base_texts(answer):
@@ -157,7 +159,7 @@ def show_answer(answer: Answer) -> None:
     for effect in answer.effects:
         variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
-        if shape := shape_text(effect, answer.model.campaign):
+        if shape := shape_text(effect, answer.model):
             out.print(f"  {shape}")
         if effect["forms"]:
             # Each is added by itself: whose a value is says its heading.
@@ -185,7 +187,7 @@ def show_answer(answer: Answer) -> None:
         out.print(text)
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
-    show_warnings(out, answer.warnings)
+    show_warnings(out, shortened(answer.warnings, standing))
     show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
     rejected = turned_down(answer)[:6]
     if rejected:

@@ -91,7 +91,7 @@ def headline(answer: Answer) -> str:
 def said_of(effect: dict[str, Any], answer: Answer) -> str:
     """An effect as a headline has it; where its name would answer what the campaign leaves open, the shape that was found."""
     variant = wording.shortly(effect)
-    return shape_text(effect, answer.model.campaign) or effect_title(effect["name"]) + (f" ({variant})" if variant else "")
+    return shape_text(effect, answer.model) or effect_title(effect["name"]) + (f" ({variant})" if variant else "")
 
 
 def reason_text(answer: Answer) -> str:
