@@ -7,7 +7,7 @@ import time
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from fmu_src.progress import Listener, Task, left_in_all
+from fmu_src.progress import Listener, Task, beside_text
 
 if TYPE_CHECKING:
     from fmu_src.durations import Durations
@@ -95,8 +95,7 @@ class Lines:
                 task, now = self.tasks[-1], time.monotonic()
                 if self.is_due(task, now):
                     self.spoken[task] = self.last = now
-                    whole = left_in_all(self.tasks[:-1])
-                    print(f"rvwear: {task.sentence()}{f'; in all {whole} left' if whole else ''}", file=sys.stderr, flush=True)
+                    print(f"rvwear: {task.sentence()}{beside_text(self.tasks[:-1])}", file=sys.stderr, flush=True)
                 self.changed.wait(0.2)
 
     def is_due(self, task: Task, now: float) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
+from discrepancy.calibrated_deviations import deviations_of
 from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
@@ -18,12 +19,10 @@ from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
-from discrepancy.campaign.zeros import unused_means
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import KeyFigure, key_figures
 from discrepancy.locked_doubts import locked_doubts
@@ -31,12 +30,13 @@ from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.plausible import doubts_of
-from discrepancy.prediction.defined_samples import FLOATING, defined_at
+from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import Scale, of_parameter, shown
+from discrepancy.standing_notes import floating_of, standing_notes
 from discrepancy.stiffest import too_soft
 from discrepancy.unstated_texts import place_texts
 from fmu_src.arrays import Floats
@@ -108,26 +108,11 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
 
 
-def floating_of(campaign: Campaign) -> dict[str, int]:
-    """By run, how many of its samples are not compared, because the output floats there; runs without such samples are left out."""
-    counts = {record.name: int((~defined_at(record, campaign)).sum()) for record in campaign.records}
-    return {name: count for name, count in counts.items() if count}
-
-
-def floating_text(floating: Mapping[str, int]) -> str:
-    """What of samples near no torque is said; ``floating`` holds at least one run."""
-    runs = f"run {next(iter(floating))}" if len(floating) == 1 else f"{len(floating)} runs"
-    count = sum(floating.values())
-    return (f"{count} sample{'s' * (count > 1)} of {runs} near no torque not compared: to {100 * FLOATING:g} % of the rated the"
-            " output floats, and the first samples of a loop hang on what was before it where its ways lie close, or until they join the branch that passes"
-            " there again; key figures are read without them, a lost motion not at all where one way is left out at its torque")
-
-
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
     """What of the model was calibrated to the campaign before it was held against it, a line for each meaning; empty for nothing.
 
     ``angle_zero[1] = -62.87 +- 0.02 arcmin, angle_zero[2] = 3.1 +- 0.02 arcmin: output angle of the model at the record's angle 0``: with the standard
-    deviation that noise leaves, within which a calibration beside other effects finds another number.
+    deviation, where it is known, within which a calibration beside other effects finds another number.
     """
     deviations = deviations_of(base) if base else {}
     meanings = {p.name: p.description for p in model.nuisances}
@@ -137,11 +122,6 @@ def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fi
         lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {with_deviation(value, deviations.get(own, 0.0), scale)}")
     known = set(meanings.values())
     return [", ".join(numbers) + (f": {meaning}" if meaning in known else "") for meaning, numbers in lines.items()]
-
-
-def deviations_of(base: Fit) -> dict[str, float]:
-    """By calibrated number the standard deviation (SI) that noise leaves."""
-    return dict(zip(base.names, map(float, np.sqrt(np.diag(covariance_of(base))))))
 
 
 def with_deviation(value: float, deviation: float, scale: Scale) -> str:
@@ -159,7 +139,8 @@ def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> lis
     found = []
     for name, value in values.items():
         unit, least = (known[name].unit, ROUNDING * known[name].scale) if name in known else ("1", 0.0)
-        told = 0.0 if abs(value) < least else value
+        # A share at its bound is 0 but for what a solver leaves, here as in what is said against it.
+        told = 0.0 if abs(value) < least else round(value, 4) if name == LAG_SHARE else value
         found.append((as_told.told_name(name, tables), told, of_parameter(abs(told), unit)))
     return found
 
@@ -238,10 +219,8 @@ def incomplete(campaign: Campaign) -> list[str]:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
-    if floating := floating_of(model.campaign):
-        warnings.append(floating_text(floating))
+    warnings += standing_notes(model.campaign)
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
-    warnings += [f"{text}; {remedy}" for text, remedy in unused_means(model.campaign.records)]
     if not any(r.held_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

@@ -52,5 +52,5 @@ def zero_text(name: str, turned: float, unfit: bool, period: float) -> str:
                 " missing is found: change nothing for it before")  # fmt: skip
     if abs(math.degrees(math.remainder(turned, period))) < TURNED:
         return ""
-    return (f"{counted}, found {math.degrees(turned):.0f} deg of the input from the model's; if the encoder was set to 0 anew for them, leave out {LOCKED_AT}"
-            " (a diagnosis then looks for the position, too)")  # fmt: skip
+    return (f"{counted}, found {math.degrees(turned):.0f} deg of the input from the model's; if the encoder was set to 0 anew for the loops, leave out"
+            f" {LOCKED_AT} (a diagnosis then looks for the position, too)")  # fmt: skip

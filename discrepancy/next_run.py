@@ -148,15 +148,24 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         text = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance, then ask again"
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
-        text = start or f"nothing is left to separate: {f'{known} stands alone' if known else 'nothing is missing that this campaign shows'}"
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
         untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
+        text = start or rest_text(f"{known} stands alone" if known else "nothing is missing that this campaign shows", untold, campaign)
         return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
     verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
     return NextRun(answer, result, [member.name for member in chosen], verdict, left)
+
+
+def rest_text(stands: str, untold: Sequence[str], campaign: Campaign) -> str:
+    """What is said of an answer that needs no separating: that this is all, or that questions are open and what they cost, never both."""
+    if not untold:
+        return f"nothing is left to separate: {stands}"
+    cost = f"{REPEATS * campaign.rig.cost_per_run:g} {campaign.rig.currency.removeprefix('1')}".rstrip() if campaign.rig else f"{REPEATS} runs"
+    asked = "this can still be asked: it costs" if len(untold) == 1 else f"these {len(untold)} can still be asked: each costs"
+    return f"{asked} the change itself and {cost} after it, {REPEATS} repetitions of a condition; apart from that {stands}"
 
 
 def weighed(answer: Answer, campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:

@@ -160,13 +160,13 @@ def describe(condition: Mapping[str, float], campaign: Campaign, spans: Mapping[
 
 
 def position_text(at: float, scale: Scale, unit: str) -> str:
-    """A position of the input [rad] within a turn of it, which is what one sees, and how many whole turns lie before it: after one it is another place of
-    the cranks."""
+    """A position of the input [rad], and how one comes there: after a whole turn the input stands as before, and the cranks elsewhere."""
     turns, rest = divmod(round(math.degrees(at), 6), 360.0)
     low = f"{rest:{'.3g' if 0.0 < rest < 10.0 else '.0f'}} deg"
     if not turns:
         return low
-    return f"{low} after {turns:.0f} whole turn{'s' * (turns != 1.0)} ({scale.number(at):.0f} {unit})"
+    on = f"{turns:.0f} whole turn{'s' * (turns != 1.0)}{f' and {low}' if rest else ''}"
+    return f"{scale.number(at):.0f} {unit} (from the encoder's zero turn the input on by {on})"
 
 
 def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> str:

@@ -1,6 +1,6 @@
 """What a campaign does not tell of effects that are named: which of two things they come from, and what does."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from discrepancy.campaign.design import Design
@@ -29,7 +29,12 @@ def parts_untold_before(file: ModelFile) -> list[str]:
 
 def origins_untold(effects: Sequence[Mapping[str, Any]], file: ModelFile, campaign: Campaign) -> list[str]:
     """Of ``effects`` that are named, or that the model has, and may come from one thing or another: that this campaign does not tell which, and what does."""
-    known = [*(name for effect in effects for name in effect["parameters"]), *file.values()]
-    verdicts = (judge(pair, Design(campaign)) for pair in PAIRS if pair.within and any(name.startswith(pair.within) for name in known))
+    return origins_untold_of([*(name for effect in effects for name in effect["parameters"]), *file.values()], campaign)
+
+
+def origins_untold_of(known: Iterable[str], campaign: Campaign) -> list[str]:
+    """The same of parameters by their names."""
+    names = list(known)
+    verdicts = (judge(pair, Design(campaign)) for pair in PAIRS if pair.within and any(name.startswith(pair.within) for name in names))
     return [f"whether it is {', or '.join(v.pair.effects)}, this campaign does not tell: {v.pair.experiment}"
             for v in verdicts if v.status == "not separable"]  # fmt: skip

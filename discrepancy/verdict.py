@@ -29,7 +29,7 @@ from discrepancy.opposite_sign import direction_doubts, sign_doubts
 from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.ring_directions import ring_texts
+from discrepancy.ring_directions import ring_texts, seen_from_crank
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
 from discrepancy.unstated_texts import unstated_texts
@@ -186,6 +186,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
+    effects = seen_from_crank(effects, fit.values)
     doubts += ring_texts(effects, fit.values, model.file) + sign_doubts(effects, found)
     doubts += direction_doubts(effects, found, as_told.tables_of(model))
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)

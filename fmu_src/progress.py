@@ -38,6 +38,8 @@ class Task:
     foretold: tuple[float, float] | None = None
     # Whether it is what is waited for: what is left of it is told beside its steps.
     whole: bool = False
+    # What is said of what follows as long as nobody knows how long it takes.
+    then: str = ""
 
     def __post_init__(self) -> None:
         self.name = self.what
@@ -110,6 +112,14 @@ def left_in_all(outer: Sequence[Task]) -> str:
         return foretold
     left = next((task.left for task in outer if task.whole), None)
     return "" if left is None else f"about {duration(left)}"
+
+
+def beside_text(outer: Sequence[Task]) -> str:
+    """Behind the sentence of a part: what is left of the whole, or what follows where that is not known."""
+    if whole := left_in_all(outer):
+        return f"; in all {whole} left"
+    then = next((task.then for task in outer if task.then), "")
+    return f"; {then}" if then else ""
 
 
 class Listener(Protocol):

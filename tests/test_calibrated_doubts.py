@@ -113,6 +113,23 @@ def test_what_ended_at_nothing_is_told_as_nothing():
     assert calibrated_texts(model, {"lag_share": 0.02, "angle": 1e-13}) == ["lag_share = 0.02", "angle = 0 arcsec"]
 
 
+def test_where_the_model_misses_the_data_no_deviation_is_told():
+    """"lag_share = 1.271e-05 +- 0.063" stood there above "is known to 1.2 only", and with the missing effect it was 1.017."""
+    from types import SimpleNamespace
+
+    from discrepancy.calibrated_deviations import unsure_text
+    from discrepancy.compare import calibrated_texts
+    from discrepancy.problem import Parameter
+
+    lag = Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3)
+    model = SimpleNamespace(nuisances=(lag,))
+    fits, near, misses = (fit_of([lag], {"lag_share": 1.271e-5}, np.full(2, left), np.full((2, 1), 20.0)) for left in (0.0, 1.3, 20.0))
+    assert calibrated_texts(model, fits.values, misses) == ["lag_share = 0"] and unsure_text(misses).startswith("without +-: the model misses the data by 20 times")
+    assert calibrated_texts(model, fits.values, fits) == ["lag_share = 0 +- 0.035"] and unsure_text(fits) == ""
+    # What is left a little above the noise widens it, as in the doubts.
+    assert calibrated_texts(model, fits.values, near) == ["lag_share = 0 +- 0.046"]
+
+
 def test_what_was_calibrated_is_told_with_its_meaning():
     """"angle_zero[1] = -55.0386 arcmin, lag_share = 1.00309" said nothing to who does not know the names."""
     from types import SimpleNamespace

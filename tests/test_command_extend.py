@@ -29,7 +29,7 @@ def answer_of(verdict, names, rejected=(), laws=(), off=()):
     effects = [{"name": n.partition(".")[0], "candidates": [n], "forms": {}} for n in names]
     diagnosis = SimpleNamespace(reason="so it is", rejected=[{"name": n} for n in rejected], base_off=[SimpleNamespace(name=n, explains=e) for n, e in off])
     model = SimpleNamespace(campaign=SimpleNamespace(reducer=None))
-    return SimpleNamespace(verdict=verdict, model=model, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws)
+    return SimpleNamespace(verdict=verdict, model=model, effects=effects, confusable=list(names) if verdict == SET else [], diagnosis=diagnosis, laws=laws, untold=[])
 
 
 def lines(text: str) -> list[str]:

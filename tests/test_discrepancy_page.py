@@ -29,6 +29,7 @@ from discrepancy.page.answer import headline
 from discrepancy.page.changed_figures import changed_figures
 from discrepancy.page.response import averaged
 from discrepancy.page.runs import runs_of
+from discrepancy.page.series import whose_noise
 from discrepancy.page.spectra import amplitudes, bridged
 from discrepancy.problem import Candidate, Parameter, Record
 from discrepancy.scales import AXES
@@ -217,6 +218,9 @@ def test_a_mean_of_repetitions_leaves_out_what_stands_far_off():
     result = compared(far_off(model_of({"gap": 2e-6})))
     runs = [r for r in runs_of(result.diagnostician.space, result.predictions, AXES["speed"]) if r.record.name in ("transmission_error 3 0", "transmission_error 3 1")]
     [mean] = averaged(runs)
+    # Bands of means and of single runs stood under one caption.
+    assert whose_noise(runs) == "a single run" and whose_noise([mean]) == "a mean of 2 replicates"
+    assert whose_noise([mean, *runs]) == "a mean of 1 or 2 replicates (1: a single run)"
     assert mean.measured[60] == pytest.approx(runs[0].measured[60]) and mean.measured[61] == pytest.approx(np.mean([r.measured[61] for r in runs]))
     assert abs(bridged(runs[1], runs[1].measured)[60]) < 20.0 * ARCSEC
 

@@ -28,7 +28,7 @@ def test_samples_that_are_not_compared_are_counted_and_exported_without_a_predic
     assert main(["compare", "RV20E-121", str(bench), "--json", "--export", str(tmp_path / "e.csv")]) == 0
     told = json.loads(capsys.readouterr().out)
     assert few > 1 and [(run["samples"], run["near_no_torque"]) for run in told["runs"]] == [(300 - few, few)] * 2
-    assert f"{2 * few} samples of 2 runs near no torque not compared: to 1 % of the rated the output floats," in " ".join(told["warnings"])
+    assert f"{2 * few} samples of 2 runs not compared: within 1 % of the rated torque from no torque the output floats," in " ".join(told["warnings"])
     place = tmp_path / "e_hysteresis_locked_input.csv"
     table, calibrated = pd.read_csv(place), pd.read_csv(tmp_path / "e_calibrated.csv")
     assert "model_error[hysteresis]" in set(calibrated["parameter"])
@@ -36,3 +36,14 @@ def test_samples_that_are_not_compared_are_counted_and_exported_without_a_predic
     near = np.abs(rows["torque [N.m]"]) <= 0.01 * RATED
     assert rows["torque [N.m]"].to_numpy() == pytest.approx(TORQUE) and rows["measured [arcmin]"].notna().all()
     assert rows.loc[near, ["predicted [arcmin]", "noise [arcmin]"]].isna().all(axis=None) and rows.loc[~near, ["predicted [arcmin]", "noise [arcmin]"]].notna().all(axis=None)
+
+
+def test_a_diagnosis_says_standing_notes_in_few_words():
+    """The same three long notes stood below every command."""
+    from discrepancy.standing_notes import floating_text, shortened
+
+    whole = floating_text({"loop_1": 29, "loop_2": 29})
+    assert whole.startswith("58 samples of 2 runs not compared") and len(whole) < 260
+    told = shortened([whole, "another reducer"], {whole: "58 samples of 2 runs near no torque not compared"})
+    assert told == ["another reducer", "as before: 58 samples of 2 runs near no torque not compared (`rvwear compare` says these whole)"]
+    assert shortened(["another reducer"], {whole: ""}) == ["another reducer"]

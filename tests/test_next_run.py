@@ -150,7 +150,7 @@ def test_what_one_effect_may_come_from_is_said():
     """An oval ring may have been ground so or be clamped so: `campaign check` asked for the ring to be turned, and nothing was left to ask here."""
     error = Record("te", "transmission_error", "rad", "c", 1, np.zeros(5), {"angle": np.linspace(0.0, 7.0, 5)}, {"direction": 1.0})
     campaign = replace(CAMPAIGN, records=(error,), conditions={"c": SimpleNamespace(interventions=())})
-    asked = "whether it is pin position errors, or ring ovality or clamping, this campaign does not tell"
+    asked = "whether it is the pins' own places, or an oval or clamped ring, this campaign does not tell"
     # First, for it is what is open.
     answer = answer_of(ONE, ["pin_position_errors"])
     answer.effects.append({"parameters": {"pin_ring_ovality": {}}})
@@ -162,7 +162,13 @@ def test_what_one_effect_may_come_from_is_said():
     # Once it stands in the model file nothing is missing, and the question is as open.
     answer = answer_of(NONE)
     answer.model.file.values = lambda: {"pin_ring_ovality": 5e-6}
-    assert proposal_for(answer, campaign).verdict.startswith(asked)
+    said = proposal_for(answer, campaign).verdict
+    assert said.startswith(asked)
+    # "nothing is left to separate" stood behind the question: what it costs does.
+    assert "nothing is left" not in said
+    assert "this can still be asked: it costs the change itself and 200 EUR after it, 2 repetitions of a condition" in said
+    assert said.endswith("apart from that nothing is missing that this campaign shows")
+    assert "and 2 runs after it" in proposal_for(answer, replace(campaign, rig=None)).verdict
 
 
 def test_what_next_says_is_parted_in_short_lines(capsys):
@@ -173,12 +179,13 @@ def test_what_next_says_is_parted_in_short_lines(capsys):
     assert capsys.readouterr().out.splitlines() == run.lines
 
 
-def test_a_position_is_said_within_a_turn():
-    """"input locked at 558 deg": nobody sees more than a turn; which of them it is matters, for the cranks take three."""
+def test_a_position_beyond_a_turn_says_what_to_do():
+    """"input locked at 198 deg after 1 whole turn (558 deg)" did not say which of both to set."""
     says = {at: describe({"locked_at": np.radians(at)}, CAMPAIGN) for at in (0.0, 90.0, 360.0, 558.4, 837.0)}
     assert list(says.values()) == [
-        "input locked at 0 deg", "input locked at 90 deg", "input locked at 0 deg after 1 whole turn (360 deg)",
-        "input locked at 198 deg after 1 whole turn (558 deg)", "input locked at 117 deg after 2 whole turns (837 deg)",
+        "input locked at 0 deg", "input locked at 90 deg", "input locked at 360 deg (from the encoder's zero turn the input on by 1 whole turn)",
+        "input locked at 558 deg (from the encoder's zero turn the input on by 1 whole turn and 198 deg)",
+        "input locked at 837 deg (from the encoder's zero turn the input on by 2 whole turns and 117 deg)",
     ]  # fmt: skip
 
 

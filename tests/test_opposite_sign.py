@@ -13,7 +13,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.opposite_sign import direction_doubts, sign_doubts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.ring_directions import ring_texts
+from discrepancy.ring_directions import ring_texts, seen_from_crank
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 
@@ -97,6 +97,17 @@ def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():
     assert "count from its pin 1" in text and "crank 1 stands at 5.7 deg where mounting 1 shows angle 0" in text
     of_discs = {"parameters": {"disc_runout_angle": {"direction": True}}}
     assert not ring_texts([effect], {"pin_ring_runout": 5e-6}, ModelFile(RV.name, RV)) and not ring_texts([of_discs], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
+
+
+def test_a_direction_is_told_from_the_crank_at_the_zero_of_the_encoder_too():
+    """-89.13 deg of an interval of 0.06 deg counted from a pin that is known to 9 deg; what is carried to the part had to be computed from a note."""
+    parameters = {"pin_ring_ovality": {"value": 4e-6}, "pin_ring_ovality_angle": {"value": np.radians(-89.13), "direction": True, "meaning": "the long axis"}}
+    (effect,) = seen_from_crank([{"name": "pin_position_errors", "parameters": parameters}], {"angle_zero[1]": np.radians(5.7)})
+    assert "the long axis, from pin 1" in effect["parameters"]["pin_ring_ovality_angle"]["meaning"]
+    assert "that is -94.83 deg from crank 1 where mounting 1 shows angle 0" in effect["parameters"]["pin_ring_ovality_angle"]["meaning"]
+    assert effect["parameters"]["pin_ring_ovality"] == {"value": 4e-6}
+    (as_it_was,) = seen_from_crank([{"parameters": parameters}], {})
+    assert as_it_was["parameters"] == parameters
 
 
 def test_a_pin_is_told_with_those_that_look_alike_and_from_where_it_counts():

@@ -10,7 +10,7 @@ import pytest
 from cli import progress as shown
 from cli.bars import Bars
 from fmu_src.durations import Durations
-from fmu_src.progress import Task, left_in_all, say, task, told_to
+from fmu_src.progress import Task, beside_text, left_in_all, say, task, told_to
 
 
 @pytest.mark.parametrize("given, begun, text", [
@@ -51,6 +51,14 @@ def test_in_a_pipe_a_step_is_told_with_what_is_left_of_the_whole(monkeypatch, ca
         inner.advance()
         time.sleep(0.4)
     assert capsys.readouterr().err.splitlines() == ["rvwear: inner: 1 of 4, about 1 s left; in all 1 to 6 min left"]
+
+
+def test_what_follows_is_said_where_nobody_knows_how_long_it_takes():
+    """"In all 25 to 80 s left" stood there while effects were screened, and then "the rest takes 1 to 2 min"."""
+    whole = Task("the whole", then="fits after it take longer")
+    assert beside_text([whole]) == "; fits after it take longer" and beside_text([Task("another")]) == ""
+    whole.foretell(90.0, 350.0)
+    assert beside_text([whole]) == "; in all 1 to 6 min left"
 
 
 @pytest.mark.parametrize("given, foretold, passed, text", [

@@ -77,13 +77,13 @@ def test_below_an_adequate_model_no_experiment_is_asked_for_but_anyway(bench):
     bench.page.goto(bench.address)
     told = bench.page.evaluate("""async () => {
       const { nextPart } = await import('./static/better.js'), found = { verdict: 'nothing is left to separate', asked: [], proposals: [], stakes: {} };
-      return [['none', null], ['none', found], ['one effect', null]].map(([verdict, next]) => {
-        const part = nextPart({ answer: { model: 'RV20E-121', verdict }, next, context: { busy: () => '' } });
+      return [['none', null], ['none', found], ['one effect', null], ['none', null, ['Whose it is.']]].map(([verdict, next, untold]) => {
+        const part = nextPart({ answer: { model: 'RV20E-121', verdict, untold }, next, context: { busy: () => '' } });
         return [part.querySelector('h2').textContent, part.querySelector('#next').closest('details')?.open ?? null];
       });
     }""")
     nothing = "Nothing is left to explain: no further experiment is asked for"
-    assert told == [[nothing, False], [nothing, True], ["What to measure next", None]]
+    assert told == [[nothing, False], [nothing, True], ["What to measure next", None], ["What can still be asked: one question", False]]
 
 
 def test_charts_that_were_not_scrolled_to_are_printed(bench):

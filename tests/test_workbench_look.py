@@ -130,3 +130,22 @@ def test_nothing_else_is_moved_in_try():
     torque = np.linspace(-1.0, 1.0, 50)
     loop = Record("r", "hysteresis", "rad", "c", 1, torque + 1.0, {"torque": torque}, {"direction": 1}, mounting="1")
     assert at_own_zero(loop, torque, [Parameter("angle_zero[1]", "rad", 0.0, -1.0, 1.0, 0.1, 0)]) is torque
+
+
+def test_look_tells_calibrated_numbers_as_compare_does():
+    """In Look they had no deviation at all."""
+    from types import SimpleNamespace
+
+    from discrepancy.inference.base_fit.fit import fit_of
+    from discrepancy.problem import Parameter
+    from workbench.look import calibrated
+
+    lag = Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3, description="lag of the output")
+
+    def told(left: float):
+        base = fit_of([lag], {"lag_share": 1.017}, np.full(2, left), np.full((2, 1), 20.0))
+        space = SimpleNamespace(base=base)
+        return calibrated(SimpleNamespace(model=SimpleNamespace(nuisances=(lag,)), nuisances=base.values, diagnostician=SimpleNamespace(space=space)))
+
+    assert told(0.0) == [{"name": "lag_share", "value": "1.017 ± 0.035", "meaning": "lag of the output"}]
+    assert told(20.0)[0]["value"] == "1.017"

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import Comparison
+from discrepancy.calibrated_deviations import deviations_of, unsure_text
+from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, comparison, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
-from discrepancy.scales import of_axis, of_parameter, of_signal
+from discrepancy.scales import of_axis, of_signal
 from fmu_src.arrays import Floats
 from pages.words import number
 from workbench.doubts import apart, cells_of
@@ -63,7 +63,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign, diagnosed=bool(model.file.effects)),
         "cards": [asdict(c) for c in page.cards],
-        "figures": figures(result.figures), "calibrated": calibrated(result),
+        "figures": figures(result.figures), "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],
         "orders": named, "nuisances": result.nuisances,
@@ -72,12 +72,12 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
 
 
 def calibrated(result: Comparison) -> list[dict[str, str]]:
-    units = {p.name: (p.unit, p.description) for p in result.model.nuisances}
-    found = []
-    for name, value in result.nuisances.items():
-        unit, meaning = units.get(name, ("1", ""))
-        found.append({"name": told_name(name, tables_of(result.model)), "value": of_parameter(abs(value), unit).text(value, 5), "meaning": meaning})
-    return found
+    """Calibrated numbers as `compare` tells them, with how sure they are where that is known."""
+    meanings, deviations = {p.name: p.description for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
+    return [
+        {"name": told, "value": with_deviation(value, deviations.get(name, 0.0), scale).replace("+-", "±"), "meaning": meanings.get(name, "")}
+        for name, (told, value, scale) in zip(result.nuisances, calibrated_numbers(result.model, result.nuisances))
+    ]
 
 
 def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:

@@ -218,12 +218,13 @@ def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
     """An answer as page and on the screen, or as JSON with ``more``."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
+    from discrepancy.standing_notes import standing_notes
 
     write_html(options, answer)
     if options.json:
         json_text(answer.as_json() | more)
     else:
-        show_answer(answer)
+        show_answer(answer, standing_notes(answer.model.campaign))
 
 
 def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = GOES_ON, **more: object) -> int:

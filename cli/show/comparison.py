@@ -9,20 +9,24 @@ from rich.table import Table
 from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.as_told import tables_of, told_name
+from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.inference.verdict import NONE
-from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.key_figures import KeyFigure
 from discrepancy.ladder_step import step_of
 from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
 from discrepancy.next_run import NextRun
+from discrepancy.pin_shapes import shape_text
 from discrepancy.prediction.orders import apart_from_remark
 from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
+from discrepancy.standing_notes import shortened
+from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
@@ -75,31 +79,33 @@ def show_comparison(comparison: Comparison) -> None:
         out.print("calibrated to this campaign before anything was compared:")
         for text in calibrated_texts(comparison.model, comparison.nuisances, comparison.diagnostician.space.base):
             out.print(f"  {text}")
+        if unsure := unsure_text(comparison.diagnostician.space.base):
+            out.print(f"  {unsure}")
     show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
 def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "") -> None:
-    """Key figures that are furthest off the model, one row each with the condition where it is; the signal first that has the furthest.
+    """Key figures, a row for each kind with the condition where it is furthest off; the signal first that has the furthest.
 
     ``after``: the same with what was ``added`` to the model, if anything was.
     """
-    worst = furthest(figures)
-    if not worst:
+    told = told_figures(figures)
+    if not told:
         return
     table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else "")
                   + (f", and with {added} in it" if after else ""))  # fmt: skip
     more = {id(f): changed for f, changed in zip(figures, after)}
     heads = ("figure", "condition", "measured", "noise", "model", *["with it"] * bool(after), "", "off/noise")
     numbers = ("measured", "noise", "model", "with it", "off/noise")
-    rows = figure_rows(worst[:LONGEST], more)
+    rows = figure_rows(told, more)
     fill(table, dict(zip(heads, zip(*rows))), out.width - BETWEEN * len(heads), ["figure", "condition"], right=[name for name in heads if name in numbers])
     out.print(table)
-    for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in worst[:LONGEST]))):
+    for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in told))):
         out.print(remark)
-    if len(figures) > min(len(worst), LONGEST):
-        out.print(f"of {len(figures)} figures, each where it is furthest off: --json lists all")
+    if others := others_text(figures):
+        out.print(f"{others}: --json lists all")
 
 
 def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) -> list[tuple[str, ...]]:
@@ -144,7 +150,8 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
         out.print(OF_ALL)
 
 
-def show_answer(answer: Answer) -> None:
+def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
+    """``standing``: notes that a comparison, which comes first, says whole, each with its short form."""
     out = console(WIDTH)
     out.print(styled("verdict  ", (answer.verdict, "bold"), f": {answer.reason}"))
     for text in base_texts(answer):
@@ -152,6 +159,8 @@ def show_answer(answer: Answer) -> None:
     for effect in answer.effects:
         variant = f" ({variant_text(effect)})" if variant_text(effect) else ""
         out.print(styled("\n", (effect["name"], "bold"), f"{variant}  {shares_text(answer, effect)}"))
+        if shape := shape_text(effect, answer.model):
+            out.print(f"  {shape}")
         if effect["forms"]:
             # Each is added by itself: whose a value is says its heading.
             for form, names in effect["forms"].items():
@@ -178,7 +187,7 @@ def show_answer(answer: Answer) -> None:
         out.print(text)
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
-    show_warnings(out, answer.warnings)
+    show_warnings(out, shortened(answer.warnings, standing))
     show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
     rejected = turned_down(answer)[:6]
     if rejected:

@@ -132,7 +132,7 @@ PAIRS = (
     Pair(7, ("compliance of housing and supports", "softer contacts"),
          "stiffness at 10, 50, 100 and 200 % of the rated torque: contacts stiffen, the housing does not",
          ("hysteresis", "torsional_stiffness", "lost_motion"), ((WIDE_TORQUES,),)),
-    Pair(8, ("pin position errors", "ring ovality or clamping"),
+    Pair(8, ("the pins' own places", "an oval or clamped ring"),
          "one output turn or more (better three), then turn the ring by some pins, or clamp it anew: pins go with it, what the housing does stays",
          ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),), "pin_ring_"),
     Pair(9, ("encoder eccentricity", "carrier run-out"), "turn the encoder on its shaft, or use two reading heads",

@@ -1,6 +1,7 @@
 """How long a diagnosis still takes in all, told from how long its first steps took: whatever loads the machine, fits are made of the same predictions.
 
-How many fits it takes nobody knows before, so that this is a range, anew at each step that narrows it.  It is longest where the base model leaves much:
+How many fits it takes nobody knows before effects are screened: until then nothing is foretold, for a range that was told rose again and again.  From then on
+it is a range, anew at each step that narrows it.  It is longest where the base model leaves much:
 cages, zeros and lags are looked for beside a large effect again and again; and longer still where several effects are missing, which is said and not counted.
 """
 
@@ -11,12 +12,11 @@ from fmu_src.progress import between, running, say
 
 # What a diagnosis that is computed from its beginning is called.
 WHOLE = "the whole diagnosis"
+FITS_FOLLOW = "fits after it take longer, how long is said when effects are screened"
 # Root mean square of what the base model leaves, over the noise, from which its effect is large.
 LARGE = 3.0
-# What follows a step, of the time from the beginning until the base model was fitted, and of that until effects were screened; beside a large effect or
-# not: as measured on campaigns of 16 files with one large effect (7 to 11 of the first; 1.7 to 3.6, 1.2 to 2.2 and 0.1 of the second) and of the example with
-# 26 small ones (4.5; 0.6, 0.4 and 0.1).
-FITTED = {True: (5.0, 16.0), False: (1.0, 10.0)}
+# What follows a step, of the time until effects were screened; beside a large effect or not: as measured on campaigns of 16 files with one large effect
+# (1.7 to 3.6, 1.2 to 2.2 and 0.1) and of the example with 26 small ones (0.6, 0.4 and 0.1).
 SCREENED, IN_EARNEST, BESIDE, NAMED = "screened", "in earnest", "beside", "named"
 AFTER = {
     SCREENED: {True: (1.3, 4.5), False: (0.1, 2.0)}, IN_EARNEST: {True: (0.7, 3.0), False: (0.1, 1.0)},
@@ -36,13 +36,12 @@ class Outlook:
         """The base model was fitted."""
         self.large = math.sqrt(base.chi2 / max(len(base.residual), 1)) > LARGE
         if whole := running(WHOLE):
-            low, high = FITTED[self.large]
-            whole.foretell(low * whole.passed, high * whole.passed)
+            whole.then = FITS_FOLLOW
 
     def screened(self) -> None:
         """Effects were screened: from here on it can be said."""
         if whole := running(WHOLE):
-            self.unit = whole.passed
+            self.unit, whole.then = whole.passed, ""
             low, high = self.after(SCREENED)
             if high > SOON:
                 say(f"the rest takes {between(low, high)} as this machine is now, longer where several effects are missing")

@@ -12,6 +12,7 @@ from discrepancy.page.amounts import effect_title, in_words, signal_title
 from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
+from discrepancy.pin_shapes import shape_text
 from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
@@ -72,7 +73,7 @@ def sentence(answer: Answer) -> str:
 
 def headline(answer: Answer) -> str:
     """The verdict alone; parts that look alike are named below it."""
-    names = [effect_title(e["name"]) + (f" ({variant})" if (variant := wording.shortly(e)) else "") for e in answer.effects]
+    names = [said_of(e, answer) for e in answer.effects]
     off = [told_name(e.name, tables_of(answer.model)) for e in answer.diagnosis.base_off]
     texts = {
         NONE: "The model is adequate: no effect and no other pattern is significant against the noise of this campaign.",
@@ -85,6 +86,12 @@ def headline(answer: Answer) -> str:
         UNKNOWN: "The misfit is real, but no effect of the catalogue explains it.",
     }
     return texts.get(answer.verdict, answer.verdict)
+
+
+def said_of(effect: dict[str, Any], answer: Answer) -> str:
+    """An effect as a headline has it; where its name would answer what the campaign leaves open, the shape that was found."""
+    variant = wording.shortly(effect)
+    return shape_text(effect, answer.model) or effect_title(effect["name"]) + (f" ({variant})" if variant else "")
 
 
 def reason_text(answer: Answer) -> str:

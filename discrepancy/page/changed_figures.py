@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 
 from discrepancy.extend import Extension
-from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, whys
-from discrepancy.page.comparison import FEW_FIGURES, figures_section
+from discrepancy.page.comparison import figures_section
+from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from pages.content import Section, Table
 from pages.words import number
@@ -34,10 +35,9 @@ def section(pairs: Sequence[tuple[KeyFigure, KeyFigure]], lead: str) -> list[Sec
     if not before:
         return []
     after = {id(f): changed for f, changed in pairs}
-    worst = [(f, after[id(f)]) for f in furthest(before)[:FEW_FIGURES]]
-    tables = [table(worst)]
-    if len(before) > len(worst):
-        lead += f" Of {len(before)} each is shown where it was furthest off."
+    tables = [table([(f, after[id(f)]) for f in told_figures(before)])]
+    if others := others_text(before):
+        lead += f" Shown are {others}, before anything was added."
         tables.append(table(pairs, f"All {len(before)} key figures"))
     return [Section("figures", "Key figures", lead, [], tables)]
 

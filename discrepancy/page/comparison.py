@@ -3,15 +3,16 @@
 from dataclasses import asdict, replace
 from typing import Any
 
-from discrepancy.as_told import tables_of, told_name
-from discrepancy.compare import CONSPICUOUS, Comparison, deviations_of
+from discrepancy.calibrated_deviations import deviations_of, unsure_text
+from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers
 from discrepancy.inference.chance import chance
-from discrepancy.key_figures import KeyFigure, furthest
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
 from discrepancy.sample_errors import SAMPLES
-from discrepancy.scales import of_axis, of_parameter
+from discrepancy.scales import of_axis
+from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
@@ -20,7 +21,6 @@ from pages.words import counted, number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6
-FEW_FIGURES = 12
 
 
 def page(result: Comparison) -> Page:
@@ -204,11 +204,10 @@ def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool)
     )
     if calibrated:
         lead += " The model's are those after its calibration to this campaign; rvwear hysteresis and bench give them without it."
-    if len(figures) <= FEW_FIGURES:
+    if not (others := others_text(figures)):
         return [Section("figures", "Key figures", lead, [], [figures_table(figures, calibrated)])]
-    worst = furthest(figures)[:FEW_FIGURES]
-    tables = [figures_table(worst, calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]
-    return [Section("figures", "Key figures", lead + f" Of {len(figures)} each is shown where it is furthest off.", [], tables)]
+    tables = [figures_table(told_figures(figures), calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]
+    return [Section("figures", "Key figures", f"{lead} Shown are {others}.", [], tables)]
 
 
 def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
@@ -221,19 +220,17 @@ def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
 
 
 def nuisances(result: Comparison) -> Section:
-    known, deviations = {p.name: p for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
+    base = result.diagnostician.space.base
+    known, deviations = {p.name: p for p in result.model.nuisances}, deviations_of(base)
     rows = []
-    for name, value in result.nuisances.items():
+    for name, (told, value, scale) in zip(result.nuisances, calibrated_numbers(result.model, result.nuisances)):
         parameter = known.get(name)
-        unit = parameter.unit if parameter else "1"
-        scale = of_parameter(abs(value), unit)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
-        told = told_name(name, tables_of(result.model))
         size = abs(scale.factor) * deviations.get(name, 0.0)
         sure = f"{number(scale.number(value), 4)}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
         rows.append([told, sure, amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
     lead = (
-        "Fitted to the campaign before anything was compared; ± is the standard deviation that noise leaves."
+        f"Fitted to the campaign before anything was compared; {unsure_text(base).replace('+-', '±') or '± is the standard deviation that noise leaves'}."
         if rows
         else "Nothing was declared for calibration: the model stands as it is."
     )

@@ -39,8 +39,8 @@ def section(answer: Answer) -> Section:
     figures.sort(key=lambda f: -f.columns)
     lead = (
         f"In blue what {' + '.join(effect_title(c.name) for c in best.candidates)} adds with its fitted parameters, "
-        "in grey what the base model leaves (of series the mean of the replicates); held-out conditions were not "
-        "fitted."
+        "in grey what the base model leaves (of series the mean of replicates that share their samples, each single replicate where they do not);"
+        " held-out conditions were not fitted."
     )
     return Section(
         "response",
@@ -58,9 +58,10 @@ def averaged(runs: list[Run]) -> list[Run]:
         alike = np.asarray(run.record.axes[axis_of(run)])[run.kept].tobytes() if run.series else run.record.name
         cells.setdefault((*key, alike), []).append(run)
     return [
-        replace(members[0], measured=mean_of(members), noise=members[0].noise / np.sqrt(len(members)), outlying=np.all([r.outlying for r in members], axis=0))
+        replace(members[0], measured=mean_of(members), noise=members[0].noise / np.sqrt(len(members)), mean_of=len(members),
+                outlying=np.all([r.outlying for r in members], axis=0))
         for members in cells.values()
-    ]
+    ]  # fmt: skip
 
 
 def mean_of(members: Sequence[Run]) -> Floats:

@@ -29,6 +29,8 @@ class Run:
     # How the campaign tells a speed.
     speed: Scale = AXES["speed"]
     zero: float = 0.0
+    # So many repetitions are one in it; ``noise`` is that of their mean.
+    mean_of: int = 1
 
     @property
     def inside(self) -> Floats:

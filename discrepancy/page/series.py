@@ -39,7 +39,7 @@ def figure(
     choices = [Choice(label, updates(members[:width], unit, width, most) + marks(members[:width], unit, traces)) for label, members in cells.items()]
     step = max(stride(run, most) for run in runs)
     longest = max(len(members) for members in cells.values())
-    text = caption or "The band is two standard deviations of the noise between replicates around the blue line."
+    text = caption or f"The band is two standard deviations of the noise of {whose_noise(runs)} around the blue line."
     text += FREE if any(run.zero for run in runs) else ""
     text += FAR if any(run.outlying.any() for run in runs) else ""
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
@@ -57,6 +57,14 @@ def figure(
         asks="condition",
         choices=choices,
     )
+
+
+def whose_noise(runs: Sequence[Run]) -> str:
+    """Of what the band is: means of repetitions have a narrower one than a run."""
+    counts = sorted({run.mean_of for run in runs})
+    if counts == [1]:
+        return "a single run"
+    return f"a mean of {' or '.join(map(str, counts))} replicates{' (1: a single run)' if counts[0] == 1 else ''}"
 
 
 def by_condition(runs: Sequence[Run]) -> dict[str, list[Run]]:

@@ -71,7 +71,7 @@ export function nextPart(bag) {
     return h(
       "section",
       {},
-      h("h2", {}, answer.untold?.length ? "Nothing is left to explain, and one thing to ask" : "Nothing is left to explain: no further experiment is asked for"),
+      h("h2", {}, answer.untold?.length ? `What can still be asked: ${answer.untold.length > 1 ? `${answer.untold.length} questions` : "one question"}` : "Nothing is left to explain: no further experiment is asked for"),
       ...(answer.untold ?? []).map((text) => h("p", {}, text)),
       h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
     );

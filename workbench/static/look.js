@@ -274,7 +274,7 @@ export function show(root, context) {
         h(
           "span",
           { class: "quiet" },
-          `${members[0].stems ? `noise of an order ${number(members[0].noise, 3)}` : `the band is two standard deviations of the noise, ${number(2 * members[0].noise, 3)}`} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
+          `${members[0].stems ? `noise of an order ${number(members[0].noise, 3)}` : `the band is two standard deviations of the noise of a single run, ${number(2 * members[0].noise, 3)}`} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
         ),
       ),
       signal.spectra?.length ? orders(signal, condition === "*" ? signal.spectra[0].condition : condition, result, plots) : null,

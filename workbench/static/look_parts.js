@@ -4,7 +4,7 @@ import { h, note, number, table, why, words } from "./dom.js";
 import { asked } from "./to_cell.js";
 
 const CLEAR = 3,
-  FEW_FIGURES = 12;
+  MOST_KINDS = 16;
 const tone = (off) => (off > 5 ? "bad" : off > CLEAR ? "fair" : "");
 
 // In the order in which one asks.
@@ -21,7 +21,10 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
   const found = result.figures.filter((f) => matches(figureTitle(f)));
   const worst = new Map();
   for (const f of [...found].sort((p, q) => Math.abs(q.off) - Math.abs(p.off))) if (!worst.has(f.signal + f.name)) worst.set(f.signal + f.name, f);
-  const rows = (all || text ? [...found] : [...worst.values()].slice(0, FEW_FIGURES)).sort(
+  // Those of the catalogue have a row, however near they are (ORDER has their plain names).
+  const kinds = [...worst.values()],
+    told = kinds.filter((f, i) => i < MOST_KINDS || ORDER.includes(f.name));
+  const rows = (all || text ? [...found] : told).sort(
     (p, q) => p.title.localeCompare(q.title) || rank(p) - rank(q) || Math.abs(q.off) - Math.abs(p.off),
   );
   if (!result.figures.length) return null;
@@ -77,7 +80,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
               class: "plainly",
               onclick: showAll,
             },
-            `all ${result.figures.length} figures (each is shown where it is furthest off)`,
+            `all ${result.figures.length} figures (${told.length < kinds.length ? `the ${told.length} kinds furthest off or of the catalogue are shown, ${kinds.length - told.length} nearer ones not` : "every kind is shown"}, each at the condition where it is furthest off)`,
           )
         : null,
     ),
@@ -224,6 +227,7 @@ export const notes = (result, context) =>
             ["calibrated", "value", "meaning"],
             result.calibrated.map((c) => [words(c.name), c.value, c.meaning]),
           ),
+          result.unsure ? h("p", { class: "quiet small" }, result.unsure) : null,
         )
       : null,
   );
