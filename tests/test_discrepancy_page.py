@@ -352,7 +352,7 @@ def test_an_extension_shows_its_key_figures_before_and_with_the_effect(tmp_path)
     few, every = changed_figures(extension)[0].tables
     assert len(few.rows) == 2 and len(every.rows) == 14 and every.folded == "All 14 key figures"
     row = next(row for row in few.rows if row[2] == "lost motion")
-    assert row[3:] == ["1.03 arcmin", "0.00344 arcmin", "1.34 arcmin", "1.03 arcmin", "90.0 → 1.00"]
+    assert row[3:] == ["1.0313 arcmin", "0.0034 arcmin", "1.3407 arcmin", "1.0348 arcmin", "90.0 → 1.00"]
     assert "model before" in written(extension, tmp_path)
     assert changed_figures(replace(extension, figures=[])) == []
 

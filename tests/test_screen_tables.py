@@ -132,7 +132,7 @@ def test_key_figures_of_a_diagnosis_are_those_with_what_it_names_too(capsys):
     answer = SimpleNamespace(figures=before, figures_after=after, added="play", model=SimpleNamespace(file=load_model("RV20E-121")),
                              diagnosis=SimpleNamespace(nuisances={"zero": 1.0}))  # fmt: skip
     [section] = figures_of_answer(answer)
-    assert "with the effect" in section.tables[0].head and section.tables[0].rows[0][-2:] == ["0.323 arcmin", "50.0 → 0.333"]
+    assert "with the effect" in section.tables[0].head and section.tables[0].rows[0][-2:] == ["0.3235 arcmin", "50.0 → 0.333"]
     columns = {column.name: column.values for column in figure_rows(before, after).columns}
     assert columns["off_in_noise_with_effect"][0] == pytest.approx(-1.0 / 3.0)
     assert "with_effect" not in {column.name for column in figure_rows(before).columns}

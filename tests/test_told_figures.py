@@ -37,3 +37,15 @@ def test_of_very_many_kinds_those_of_a_catalogue_stay_and_the_others_are_named()
 
 def test_where_all_are_shown_nothing_is_said_of_others():
     assert others_text([LOST]) == "" and others_text([]) == ""
+
+
+def test_screen_page_and_workbench_have_one_number_of_digits(capsys):
+    """Look had 45.439 +- 0.0091, the diagnosis 45.4 and 0.00912."""
+    from workbench.look import figures as in_look
+
+    f = replace(ANY, signal="hysteresis", name=STIFFNESS, unit="N.m/rad", measured=45.4394 * 3437.747, model=50.0 * 3437.747, noise=0.00912 * 3437.747)
+    [look] = in_look([f])
+    assert [look[key] for key in ("measured", "noise", "model")] == ["45.4394", "0.0091", "50.0000"]
+    show_figures([f], console(WIDTH), load_model("RV20E-121"), True)
+    shown = capsys.readouterr().out.split()
+    assert all(text in shown for text in ("45.4394", "0.0091", "50.0000"))

@@ -1,6 +1,5 @@
 """A comparison as the page shows it: key figures first, then every run over its axis, residuals in units of the noise, orders."""
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -9,11 +8,12 @@ import numpy as np
 
 from discrepancy.calibrated_deviations import deviations_of, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
+from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, comparison, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
-from discrepancy.scales import of_axis, of_signal
+from discrepancy.scales import of_axis
 from fmu_src.arrays import Floats
 from pages.words import number
 from workbench.doubts import apart, cells_of
@@ -24,9 +24,6 @@ MOST_ORDERS = 200
 FEW = 40
 # Samples of a run that is drawn at all.
 LEAST = 3
-# Digits of a key figure: more fit no telephone.
-MOST_DIGITS = 6
-POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Columns:
@@ -84,32 +81,13 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
     """Measured against model in one unit, with the noise; what repeats how often."""
     rows = []
     for f in found:
-        scale = of_signal(f.told_as, f.unit)
-        values = {key: scale.factor * value for key, value in (("measured", f.measured), ("model", f.model), ("noise", f.noise))}
-        decimals = decimals_of(values["noise"])
+        unit, (measured, noise, model) = figure_texts(f, f.model)
         rows.append({
-            "signal": f.signal, "title": amounts.signal_title(f.signal), "condition": f.condition, "name": f.name, "unit": amounts.pretty(scale.unit),
+            "signal": f.signal, "title": amounts.signal_title(f.signal), "condition": f.condition, "name": f.name, "unit": amounts.pretty(unit),
             "runs": f.runs, "repeated": f.repeated, "off": f.off,
-            "why": asdict(whys.of_key_figure(f)), **{key: text_of(value, decimals) for key, value in values.items()},
+            "why": asdict(whys.of_key_figure(f)), "measured": measured, "noise": noise, "model": model,
         })  # fmt: skip
     return rows
-
-
-def decimals_of(noise: float) -> int:
-    """Decimals down to the second digit of the noise, before the point where negative: what is smaller says nothing."""
-    return 1 - math.floor(math.log10(noise)) if noise > 0.0 and math.isfinite(noise) else 4
-
-
-def text_of(value: float, decimals: int) -> str:
-    """Of MOST_DIGITS digits at most; with a power of ten as the page writes it where there are too many zeros."""
-    if not math.isfinite(value):
-        return "–"
-    value = round(value, decimals) or 0.0
-    size = math.floor(math.log10(abs(value))) if value else 0
-    if -5 < size < MOST_DIGITS:
-        return f"{value:,.{max(0, min(decimals, MOST_DIGITS - 1 - size))}f}".replace("-", "−")
-    mantissa, _, power = f"{value:.{max(0, min(size + decimals, MOST_DIGITS - 1))}e}".partition("e")
-    return f"{mantissa}·10{str(int(power)).translate(POWERS)}".replace("-", "−")
 
 
 def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str, float], named: dict[str, str]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
+from discrepancy.figure_digits import figure_texts, plain_text
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
@@ -125,10 +126,9 @@ def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) ->
 
 def figure_row(f: KeyFigure, after: KeyFigure | None) -> tuple[str, ...]:
     both = [f, *([after] if after else [])]
-    (measured, _, unit), *others = (shown(v, f.unit, f.told_as).partition(" ") for v in (f.measured, f.noise, *(one.model for one in both)))
-    noise, *models = (number if own == unit else f"{number} {own}" for number, _, own in others)
+    unit, (measured, noise, *models) = figure_texts(f, *(one.model for one in both), text=plain_text)
     off = " -> ".join(f"{abs(one.off):.{0 if abs(one.off) >= WHOLE else 1}f}" for one in both)
-    return apart_from_remark(f.name)[0], f.condition, measured, noise, *models, unit, off
+    return apart_from_remark(f.name)[0], f.condition, measured, noise, *models, "" if unit == "1" else unit, off
 
 
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:

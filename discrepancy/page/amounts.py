@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.figure_digits import figure_texts
 from discrepancy.intervals import estimate_text, relied_on
+from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
@@ -44,6 +46,12 @@ def text(value: float | None, unit: str, signal: str = "") -> str:
         return "–"
     factor, name = scale(unit, signal)
     return f"{number(factor * value)} {name}".rstrip()
+
+
+def figure_cells(figure: KeyFigure, *models: float) -> list[str]:
+    """A key figure as measured, its noise, and what models have of it, each with its unit."""
+    unit, texts = figure_texts(figure, *models)
+    return [f"{told} {pretty(unit)}".rstrip() for told in texts]
 
 
 def axis_values(name: str, values: npt.ArrayLike, speed: Scale = AXES["speed"]) -> Floats:

@@ -45,7 +45,7 @@ def section(pairs: Sequence[tuple[KeyFigure, KeyFigure]], lead: str) -> list[Sec
 def table(pairs: Sequence[tuple[KeyFigure, KeyFigure]], folded: str = "") -> Table:
     rows = []
     for before, after in pairs:
-        texts = [amounts.text(v, before.unit, before.told_as) for v in (before.measured, before.noise, before.model, after.model)]
+        texts = amounts.figure_cells(before, before.model, after.model)
         off = f"{number(abs(before.off))} → {number(abs(after.off))}"
         rows.append([amounts.signal_title(before.signal), before.condition, before.name, *texts, off])
     head = ["signal", "condition", "figure", "measured", "noise", "model before", "with the effect", "off, in noise"]

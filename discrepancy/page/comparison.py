@@ -213,7 +213,7 @@ def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool)
 def figures_table(figures: list[KeyFigure], calibrated: bool) -> Table:
     rows = []
     for f in figures:
-        measured, noise, model = (amounts.text(v, f.unit, f.told_as) for v in (f.measured, f.noise, f.model))
+        measured, noise, model = amounts.figure_cells(f, f.model)
         rows.append([amounts.signal_title(f.signal), f.condition, f.name, measured, noise, model, number(abs(f.off))])
     head = ["signal", "condition", "figure", "measured", "noise", "model, calibrated" if calibrated else "model", "off, in noise"]
     return Table("", head, rows, (3, 4, 5, 6), whys=[whys.of_key_figure(f) for f in figures])
