@@ -151,7 +151,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
         untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
         text = start or rest_text(f"{known} stands alone" if known else "nothing is missing that this campaign shows", untold, campaign)
-        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against])), left, untold)
+        before = of_model_before(answer) if answer.verdict == NONE else ""
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against, before])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
@@ -166,6 +167,14 @@ def rest_text(stands: str, untold: Sequence[str], campaign: Campaign) -> str:
     cost = f"{REPEATS * campaign.rig.cost_per_run:g} {campaign.rig.currency.removeprefix('1')}".rstrip() if campaign.rig else f"{REPEATS} runs"
     asked = "this can still be asked: it costs" if len(untold) == 1 else f"these {len(untold)} can still be asked: each costs"
     return f"{asked} the change itself and {cost} after it, {REPEATS} repetitions of a condition; apart from that {stands}"
+
+
+def of_model_before(answer: Answer) -> str:
+    """Who asks for what a model has already is told nothing: what would confirm that is asked of the model without it."""
+    added = [effect_words(name) for name in answer.model.file.effects]
+    if not added:
+        return ""
+    return f"which run would confirm {' and '.join(added)}, which its file has, is asked of the model that it was added to (`rvwear next` of that)"
 
 
 def weighed(answer: Answer, campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:

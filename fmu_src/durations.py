@@ -46,8 +46,8 @@ class Durations:
         """Tells the task how long it took before, unless it knows it itself."""
         if task.about is None:
             own, alike = self.keys(task)
-            before = self.known.get(own, self.known.get(alike))
-            # Another model or campaign may take another time.
+            # Another model or campaign may take another time; what is found decides how long the whole takes, and says nothing of another.
+            before = self.known.get(own, None if task.whole else self.known.get(alike))
             task.like = "" if before is None or own in self.known else f"the last {self.kind}"
             task.before = before if before is None or not task.total else before * task.total
 

@@ -171,6 +171,14 @@ def test_what_one_effect_may_come_from_is_said():
     assert "and 2 runs after it" in proposal_for(answer, replace(campaign, rig=None)).verdict
 
 
+def test_of_a_model_with_its_effect_in_it_next_says_of_which_model_to_ask():
+    """Nothing is left to separate then, and the loop that would confirm it was found by asking the model before, which nobody said."""
+    answer = answer_of(NONE)
+    assert "is asked of the model" not in proposal_for(answer, CAMPAIGN).verdict
+    answer.model.file.effects = {"disc_tooth_errors": {}}
+    assert "which run would confirm disc tooth errors, which its file has, is asked of the model that it was added to" in proposal_for(answer, CAMPAIGN).verdict
+
+
 def test_what_next_says_is_parted_in_short_lines(capsys):
     """It was one sentence of a hundred words; brackets stay whole."""
     run = NextRun(SimpleNamespace(), None, [], "at which part it is (lobe at crank 1; crank 2 if turned) stays open; measure these parts; nothing is left to separate")

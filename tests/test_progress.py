@@ -167,6 +167,12 @@ def test_what_nobody_can_count_is_told_from_the_last_time(tmp_path, monkeypatch)
     assert task.sentence() == "comparing, about 40 s left if it takes as long as the last compare"
     Durations(["compare", "a"]).begin(task)
     assert "last" not in task.sentence()
+    # How long a diagnosis takes hangs on what it finds: "about 17 s left" stood over 76 s of another campaign's.
+    task = Task("comparing", whole=True)
+    Durations(["compare", "d"]).begin(task)
+    assert task.before is None
+    Durations(["compare", "a"]).begin(task)
+    assert task.before == 20.0
     # What was interrupted says nothing of how long it takes.
     run(["compare", "a"], "comparing", 5.0, broken=True)
     assert run(["compare", "a"], "comparing", 1.0) == 20.0

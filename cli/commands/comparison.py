@@ -159,7 +159,7 @@ def run_diagnose(options: argparse.Namespace) -> int:
     file, campaign = inputs(options)
     fmus = folder(options.fmus)
     try:
-        with task("diagnosing"):
+        with task("diagnosing") if fmus else nullcontext():
             answer = diagnose(file, campaign, fmus=fmus) if fmus else diagnosed(file, campaign, jobs=all_cores())
     except AnswerSoFar as stop:
         code = tell_so_far(options, stop, "begin again" if fmus else GOES_ON, draft=None)
@@ -246,8 +246,7 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
 
     names = options.effect
     if not names:
-        with task("diagnosing"):
-            answer = diagnosed(file, campaign, jobs=all_cores())
+        answer = diagnosed(file, campaign, jobs=all_cores())
         if answer.verdict not in (ONE, SEVERAL):
             return nothing_added(options, answer, refusal(options, answer))
         names = named_in(answer)
