@@ -14,5 +14,7 @@ def held_text(effect: str, model: object) -> str:
     for p in known.parameters if known else ():
         if p.is_held:
             value = values.get(p.variable.name, float(p.variable.start))
-            found.append(f"{effect_name(effect, p.variable.name)} = {of_variable(p.variable, abs(value)).text(value, 4)}")
+            # A number that chooses says nothing by itself.
+            meaning = f" ({p.variable.description})" if p.variable.description.startswith("0:") else ""
+            found.append(f"{effect_name(effect, p.variable.name)} = {of_variable(p.variable, abs(value)).text(value, 4)}{meaning}")
     return f"held, not fitted: {', '.join(found)}" if found else ""

@@ -56,7 +56,7 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert main(["reducer", "new", "--ratio", "105.3", "--pins", "40", "--rated", "500", "--diameter", "230", "--known", "pin.radius=3mm", "--output", path]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "planets of 60 and a sun of 23 teeth with 40 pins make 105.348, which the file has" in said
-    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, 15 rpm of the output (usual), 16 rollers a bearing (usual), pin.radius 3 mm; of the file's 53 numbers 5 follow" in said
+    assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, 15 rpm of the output (as usual), 16 rollers a bearing (as usual), pin.radius 3 mm; of the file's 53 numbers 5 follow" in said
     assert "from that alone (pin.radius, first_stage.ratio, input.speed, output.load_torque, wear.run_in_crank_speed), 17 come by published rules, 31 are assumed;" in said
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
@@ -69,7 +69,7 @@ def test_what_the_catalogue_asked_for_is_counted_as_found_and_given_by_nobody(tm
     options = ["--ratio", "105", "--rated", "412", "--cranks", "2", "--speed", "15", "--diameter", "190", "--stiffness", "108", "--lost-motion", "1"]
     assert main(["reducer", "new", *options, "--output", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output (usual), 16 rollers a bearing (usual), lost motion 1 arcmin"
+    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output (as usual), 16 rollers a bearing (as usual), lost motion 1 arcmin"
     assert f"given: {given}, torsional stiffness 108 N.m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
     assert "2 were looked for to meet the catalogue (disc.equidistant_modification, crank.support_compliance), " in said
     assert main(["reducer", "check", str(path)]) == 0
@@ -177,7 +177,7 @@ def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):
     assert main(["reducer", "new", "--ratio", "121", "--rated", "167", "--output", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "40 pins are assumed, as many as reducers of this kind have: count them" in said
-    assert "given: ratio 121, rated torque 167 N m, 15 rpm of the output (usual), 16 rollers a bearing (usual); of the file's" in said
+    assert "given: ratio 121, rated torque 167 N m, 15 rpm of the output (as usual), 16 rollers a bearing (as usual); of the file's" in said
     assert load_reducer(path).topology.pins == 40
     text = path.read_text()
     assert "pins = 40  # assumed: nobody counted them" in text and "rvwear reducer new --ratio 121 --rated 167" in text

@@ -51,6 +51,7 @@ def test_of_the_pins_that_may_be_proud_those_are_tried_that_show_another_curve(p
 
 def test_what_is_held_is_said_with_the_values_of_the_model():
     model = load_model("RV20E-121-rigid")
+    assert held_text("disc_tooth_errors", model) == "held, not fitted: effects.disc_tooth_errors.pairing = 1 (0: both discs carry the same error, 1: opposed ones)"
     assert held_text("drag", model) == "held, not fitted: effects.drag.churning_speed = 2000 rpm, effects.drag.viscosity_reference = 20 degC"
     assert "effects.drag.churning_speed = 1000 rpm" in held_text("drag", replace(model, settings={"churning_speed": 104.71976}))
     assert held_text("unbalance", model) == held_text("nothing", model) == ""

@@ -19,6 +19,7 @@ from workbench.folder import Folder
 from workbench.thinned import thinned
 from workbench.trying import Trial
 
+SUITS = "angles count from where what is tried fits best; phases of cages are those of the model without"
 WITHOUT, BESIDE = "zero and phases are those of the model without what is tried", "zero and phases are those that the diagnosis found beside"
 
 
@@ -37,10 +38,13 @@ def tried(trial, folder, run, values):
 
 
 def test_a_large_effect_stands_where_the_diagnosis_found_it(folder, cache):
-    """Discs off centre as they are made the curve look worse than it was without them: it stood at the zero of the base model."""
+    """Discs off centre as they are made the curve look worse than it was without them: it stood at the zero of the base model.  Without a diagnosis it
+    stands at the zero that suits it, but for cages and lag; while the hand moves at the last one."""
     trial = Trial()
+    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, 1, roughly=True)[0]["placed"].startswith(WITHOUT)
     before = {run: tried(trial, folder, run, HIDDEN) for run in ("at_160_1", "loop")}
-    assert all(told["placed"].startswith(WITHOUT) for told in before.values())
+    assert all(told["placed"].startswith(SUITS) and told["rms"][1] < 0.05 * told["rms"][0] for told in before.values())
+    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, 1, roughly=True)[0]["rms"][1] < 0.5
     assert not tried(trial, folder, "loop", {})["placed"]
     file, campaign = load_model(REDUCER), load_campaign(folder.root)
     model = PhysicalModel(file, campaign)
@@ -52,7 +56,7 @@ def test_a_large_effect_stands_where_the_diagnosis_found_it(folder, cache):
     for run, told in before.items():
         found = tried(trial, folder, run, HIDDEN)
         assert found["placed"].startswith(BESIDE) and found["rms"][0] == told["rms"][0]
-        assert found["rms"][1] < 0.2 * told["rms"][1]
+        assert found["rms"][1] < told["rms"][1]
     # Noise is 0.05 arcsec.
     assert tried(trial, folder, "at_160_1", HIDDEN)["rms"][1] < 0.06
 

@@ -1,6 +1,7 @@
 """Try: where angles count from, how far outputs lag and where roller cages stood beside an effect, as a diagnosis of the same measurements has found them.
 
-A large effect hides the pattern that tells the zero of angles: drawn at the base model's it looks wrong, however right it is.
+A large effect hides the pattern that tells the zero of angles: drawn at the base model's it looks wrong, however right it is.  Without a diagnosis the zero
+is looked for beside what is tried, from one run.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -16,10 +17,13 @@ from discrepancy.prediction.by_effects import Effects, Found
 from discrepancy.prediction.conditions import places_of_zero
 from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import Record
+from discrepancy.problem import ERROR, Record
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
 from workbench.thinned import kept_of, thinned
+
+# Of what is left at the zero that stands, what another has to take away: places are looked for in steps.
+CLEARLY = 0.05
 
 
 @dataclass(frozen=True)
@@ -44,11 +48,14 @@ class Beside:
         self.place = remembered.place_of(self.model.file, self.campaign, Settings())
         self.seen = 0
         self.standing: Mapping[str, float] = {}
+        # By what is tried, for as long as the hand moves.
+        self.zeros: dict[frozenset[str], dict[str, float]] = {}
 
     def stand(self, standing: Mapping[str, float]) -> None:
         """Takes what is calibrated first, by ``standing``: loops are locked where its zero has them, which the pattern alone told roughly."""
         if standing != self.standing:
             self.standing = dict(standing)
+            self.zeros.clear()
             if self.model.stands_elsewhere(standing):
                 self.model.settle(standing)
 
@@ -72,10 +79,28 @@ class Beside:
         best = max(self.known, key=lambda fit: len(names & fit.own), default=None)
         return best if best and names & best.own else None
 
-    def calibrated(self, tried: Iterable[str]) -> dict[str, float]:
-        """What is calibrated beside what is tried, where that is known."""
-        fit = self.fit(tried)
-        return {p.name: fit.values[p.name] for p in self.model.nuisances if p.name in fit.values} if fit else {}
+    def calibrated(self, tried: Mapping[str, float], roughly: bool = False) -> dict[str, float]:
+        """What is calibrated beside what is tried, where that is known; else zeros of angles that suit it, ``roughly`` those of the last time."""
+        if fit := self.fit(tried):
+            return {p.name: fit.values[p.name] for p in self.model.nuisances if p.name in fit.values}
+        if tried and not roughly:
+            self.zeros[frozenset(tried)] = self.suiting(tried)
+        return self.zeros.get(frozenset(tried), {})
+
+    def suiting(self, tried: Mapping[str, float]) -> dict[str, float]:
+        """Zeros of angles beside what is tried, where others leave clearly less of the runs that tell them than those that stand."""
+        errors = [record for record in reversed(self.model.records) if record.quantity == ERROR and "angle" in record.axes]
+        telling = {name: record for record in errors for name in places_of_zero(record) if name in self.model.zeros}
+        if not telling:
+            return {}
+        values = {**self.standing, **tried}
+        zeros = self.model.zeros_in_turn(values)
+
+        def left(at: Mapping[str, float]) -> float:
+            off = ((r.values - self.model.one(r, {**values, **at}))[r.counted] for r in telling.values())
+            return float(sum(np.nanvar(each) for each in off))
+
+        return zeros if left(zeros) < (1.0 - CLEARLY) * left({}) else {}
 
     def words(self, record: Record, tried: Sequence[str]) -> str:
         """One line below the curve; empty where nothing is tried, or nothing of a record hangs on an angle's zero or a cage."""
@@ -83,7 +108,9 @@ class Beside:
             return ""
         fit = self.fit(tried)
         if fit is None:
-            return "zero and phases are those of the model without what is tried: a large effect may fit better at others, which a diagnosis finds"
+            others = "are those of the model without what is tried: a large effect may fit better at others, which a diagnosis finds"
+            moved = [name for name in self.zeros.get(frozenset(tried), {}) if name in places_of_zero(record)]
+            return f"angles count from where what is tried fits best; phases of cages {others}" if moved else f"zero and phases {others}"
         return f"zero and phases are those that the diagnosis found beside {fit.title}"
 
     def counts(self, record: Record) -> bool:

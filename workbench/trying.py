@@ -99,7 +99,7 @@ class Trial:
             record = run_of(found, run)
             own, standing = checked_values(found, values), beside_it.standing
             base = own_curve(found, record, standing)
-            tried = own_curve(found, record, {**standing, **beside_it.calibrated(own), **own}, roughly) if own else base
+            tried = own_curve(found, record, {**standing, **beside_it.calibrated(own, roughly), **own}, roughly) if own else base
             other = base
             if beside and beside != model:
                 second = self.opened(folder, beside)

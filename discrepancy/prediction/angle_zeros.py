@@ -78,6 +78,24 @@ def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: flo
     return min((places[k] for k in alike), key=lambda place: abs(place - near))
 
 
+def likely_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, zero: float) -> float:
+    """About the same as ``place_in_turn`` in a tenth of its time, for a hand that waits: the phase in a wave is that of ``zero``, or the best near it."""
+    few = thinned(record)
+    turn: Floats = wave * np.arange(-round(np.pi / wave), round(np.pi / wave)).astype(np.float64)
+    shares: Floats = wave * SHARES
+
+    def best(*shifts: Floats) -> list[float]:
+        """Of each row of places [rad] the one that leaves least."""
+        left = iter([misfit(few, e) for e in shown_at(bench, few, own, np.concatenate(shifts))[1]])
+        misfits = [np.array([next(left) for _ in row]) for row in shifts]
+        return [float(row[np.argmin(off)]) for row, off in zip(shifts, misfits)]
+
+    here, there = best(zero + shares, zero + turn)
+    nearby, elsewhere = best(there + shares, here + turn)
+    [found] = best(np.concatenate([np.array([here, nearby]), elsewhere + shares]))
+    return found
+
+
 def without_cages(bench: Bench, record: Record, own: dict[str, float], zero: float, left: Floats) -> Floats:
     """What a record is off (n,) by with its angle 0 at ``zero`` [rad], without what cages that stand elsewhere could make of it."""
     pitch = 2.0 * np.pi / bench.reducer.topology.rollers

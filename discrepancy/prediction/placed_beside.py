@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.held_names import HELD
-from discrepancy.prediction.angle_zeros import best_zeros
+from discrepancy.prediction.angle_zeros import best_zeros, likely_in_turn, telling
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects, with_most
 from discrepancy.prediction.cages import Cages
@@ -88,6 +88,12 @@ class PlacedBeside:
         left, found = best_zeros(self.bench, self.records, self.wave, self.for_record, every, list(self.zeros))
         # The nearest of those that look alike.
         return left, {name: zero + self.wave * round((self.zeros[name] - zero) / self.wave) for name, zero in found.items()}
+
+    def zeros_in_turn(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Likely zeros of angles beside the effects in ``values``, looked for all round: beside parts that are off waves of the pattern are not alike."""
+        every = self.standing() | dict(values)
+        return {name: likely_in_turn(self.bench, record, self.for_record(record, every), self.wave, self.zeros[name])
+                for name, record in telling(self.bench, self.records).items() if name in self.zeros}  # fmt: skip
 
     def unplaced(self) -> list[int]:
         """See ``problem.Placing``: loops of which nobody says where the input was locked, or whose places count from a zero that is found."""

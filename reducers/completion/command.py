@@ -40,7 +40,7 @@ def given_words(given: Given) -> str:
     said += [f"{given.cranks} cranks"] if given.cranks is not None else []
     usual = {f.name: f.default for f in fields(given)}
     own = {"speed": f"{given.speed:g} rpm of the output", "rollers": f"{given.rollers} rollers a bearing"}
-    said += [text if getattr(given, name) != usual[name] else f"{text} (usual)" for name, text in own.items()]
+    said += [text if getattr(given, name) != usual[name] else f"{text} (as usual)" for name, text in own.items()]
     said += [f"lost motion {given.lost_motion:g} arcmin"] if given.made or given.lost_motion != Given.lost_motion else []
     said += [f"torsional stiffness {given.stiffness:g} N.m/arcmin"] if given.stiffness is not None else []
     return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in measured(given).items())])

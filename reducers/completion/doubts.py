@@ -36,8 +36,8 @@ def pins_doubt(given: Given) -> list[str]:
     if given.pins_counted:
         return []
     return [
-        f"{given.pins} pins are assumed, as many as reducers of this kind have: count them, or take them from a transmission error (its orders pins of"
-        " the output's turn are the cranks', 2 x lobes the ring's), and give --pins"
+        f"{given.pins} pins are assumed, as many as reducers of this kind have: count them, or read them off a transmission error, in which the"
+        f" cranks leave as many waves a turn of the output as there are pins ({given.pins}?) and the ring twice as many as a disc has lobes, and give --pins"
     ]  # fmt: skip
 
 
