@@ -47,6 +47,9 @@ def test_a_slider_of_a_phase_goes_all_round():
     phase = next(p for p in every_effect()["first_stage_error"].parameters if p.variable.name == "first_stage_phase")
     shown = slider(parameter_of(phase, 0.0), False)
     assert (shown["low"], shown["high"], shown["unit"], shown["all_round"]) == (pytest.approx(-180.0), pytest.approx(180.0), "°", True)
+    spall = next(p for p in every_effect()["race_spall"].parameters if p.variable.name == "spall_angle")
+    # The number stood at 270, the knob at the end of its way.
+    assert slider(parameter_of(spall, spall.variable.start), False)["off"] == pytest.approx(-90.0, abs=1e-3)
     seat = next(p for p in every_effect()["pin_seats"].parameters if p.variable.name == "pin_seat_direction")
     assert slider(parameter_of(seat, 0.7), False)["all_round"] is False
 

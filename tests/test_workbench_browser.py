@@ -103,7 +103,7 @@ def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     page = bench.page
     page.locator("#doing-extend li").nth(1).wait_for()
     assert page.locator("#doing-extend li").all_inner_texts() == ["adding needle_clearance", "fitting the base model"]
-    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0, "left": 240.0}), ("screening", {}), ("placing", {}))
+    at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0, "left": 240.0}), ("screening", {}), ("placing", {}), ("placing", {}))
     page.get_by_text("About 4 min left in all: the last one took 10 min.").wait_for()
     assert page.locator("#step").inner_text() == "screening › placing"
     at_work("diagnose", ("diagnosing", {}), ("the whole diagnosis", {"before": 600.0}), ("screening", {}))

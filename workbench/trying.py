@@ -187,16 +187,16 @@ def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
         low = p.off
     if p.sign < 0:
         high = p.off
-    all_round = p.is_direction and p.upper - p.lower > 2.0 * math.pi
+    all_round, off = p.is_direction and p.upper - p.lower > 2.0 * math.pi, p.off
     if all_round:
-        low, high = -math.pi, math.pi
+        low, high, off = -math.pi, math.pi, math.remainder(p.off, 2.0 * math.pi)
     if p.counts:
         low, high = 1.0, p.upper
     # An angle is told in the unit of its usual size, as a diagnosis tells what it finds, not in that of how far the slider reaches.
     scale = of_parameter(p.scale if p.unit == "rad" else max(abs(low), abs(high)), p.unit, p.is_direction)
     plain = p.description.removesuffix(" (0: off)")
     return {
-        "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(p.off),
+        "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(off),
         "low": scale.number(low), "high": scale.number(high), "bounds": [scale.number(p.lower), scale.number(p.upper)], "typical": scale.factor * p.scale,
         "amplitude": is_amplitude, "all_round": all_round, "counts": p.counts, "description": p.description, "of": "" if amounts.pretty(scale.unit) else plain,
     }  # fmt: skip

@@ -80,7 +80,7 @@ export function show(root, context) {
         "div",
         { class: "panel" },
         h("h1", {}, found ? "Found again" : "Diagnosing"),
-        h("p", { class: "quiet", id: "step" }, job.tasks.slice(job.tasks.findIndex((t) => WHOLE.includes(t.what)) + 1).map((t, i) => [i ? " › " : "", t.sentence])),
+        h("p", { class: "quiet", id: "step" }, steps(job).map((t, i) => [i ? " › " : "", t.sentence])),
         whole(job),
         job.said.length
           ? [
@@ -95,6 +95,12 @@ export function show(root, context) {
         found ? null : h("p", { class: "quiet small" }, "Stop gives the answer as far as it is known; diagnosing again goes on from there."),
       ),
     );
+  }
+
+  // Steps within steps, each once: one that two threads take at a time stands there twice.
+  function steps(job) {
+    const inner = job.tasks.slice(job.tasks.findIndex((t) => WHOLE.includes(t.what)) + 1);
+    return inner.filter((t, i) => !i || t.sentence !== inner[i - 1].sentence);
   }
 
   // How long it takes in all, of one that began at the beginning: as its first steps foretell it, else as the last one took.
