@@ -239,7 +239,7 @@ def test_from_the_files_of_a_hidden_effect_to_the_fallen_error(bench, tmp_path):
     page.get_by_text("thermal expansion stands alone").wait_for(timeout=120_000)
     page.locator("#extend:enabled").click()
     page.locator("#added", has_text="helped").wait_for(timeout=120_000)
-    before, after = map(float, re.findall(r"from ([\d.]+) to ([\d.]+)", page.locator("#added").inner_text())[0])
+    before, after = map(float, re.findall(r"patterns ([\d.]+) (?:->|→) ([\d.]+)", page.locator("#added").inner_text())[0])
     page.locator("#better:enabled").click()
     page.locator("#tab-look[aria-selected=true]").wait_for()
     page.locator("main:not(:has(.past)) #figures").wait_for(timeout=120_000)
