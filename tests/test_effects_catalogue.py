@@ -3,19 +3,23 @@
 import argparse
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cli.commands import effects
+from discrepancy.campaign.load import load_campaign
 from discrepancy.catalogue.catalogue import entries, entry
 from discrepancy.catalogue.documentation import COMPUTED, PAGE, static_part
 from discrepancy.catalogue.examples import AUDITED, CASES, picture
 from discrepancy.catalogue.plots import PICTURE, figure
 from discrepancy.catalogue.signature import new_bench, signature, words
+from discrepancy.model_file import load_model
 from discrepancy.page.amounts import effect_title
 from discrepancy.prediction.bench import Bench
-from discrepancy.prediction.candidates import shown_by
+from discrepancy.prediction.candidates import NOT_BY_LOOPS, shown_by
+from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
@@ -129,3 +133,12 @@ def test_an_effect_lists_the_signals_that_it_changes():
                 if np.ptp(change) > SEEN:
                     missing.append(f"{name}: {p.variable.name} changes {quantity}")
     assert missing == []
+
+
+def test_what_loops_alone_do_not_tell_from_a_spring_is_not_looked_for_in_them_alone():
+    """The compliance that a catalogue's stiffness lacks is one of supports; seats of pins a hundred times as soft as any stood beside it."""
+    examples = Path(__file__).parents[1] / "examples"
+    campaigns = (load_campaign(examples / place) for place in ("catalogue_stiffness/RV20E-121", "hidden_effect/campaign"))
+    loops, more = ({c.name.partition(".")[0] for c in PhysicalModel(load_model("RV20E-121-rigid"), one).candidates} for one in campaigns)
+    assert not loops & NOT_BY_LOOPS and "support_compliance" in loops
+    assert {"pin_seats", "ring_stiffness", "tilting_moment"} <= more

@@ -5,6 +5,7 @@ from dataclasses import replace
 from itertools import product
 
 from discrepancy.effects import MODULES
+from discrepancy.held_names import HELD
 from discrepancy.model_file import every_effect, halves_of
 from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record, is_unplaced
 from fmu_src.effect import Effect, EffectParameter
@@ -21,6 +22,8 @@ NOT_SEARCHED = {"constant moment"}
 PIN_NUMBERS = {"proud_pin_number"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
 PATTERNS = {"harmonics": (ERROR, ORDERS)}
+# What these change in loops at a few places, or in their mean, any spring does as well: looked for only where other signals show them, too.
+NOT_BY_LOOPS = {"carrier_stiffness", "first_stage_play", "pin_seats", "race_spall", "ring_stiffness", "tilting_moment"}
 MOST_CRANKS = 3
 # From this on two speeds are two.
 SPEEDS_DIFFER = 1.1
@@ -99,7 +102,7 @@ def candidates(
             continue
         for group, (amplitudes, shapes) in groups(effect).items():
             names = {p.variable.name for p in amplitudes}
-            seen = PATTERNS.get(group, signals)
+            seen = PATTERNS.get(group, tuple(q for q in signals if q not in HELD) if name in NOT_BY_LOOPS else signals)
             if group in NOT_SEARCHED | beyond or names & excluded or names & present.keys() or (seen and not set(seen) & set(quantities)):
                 continue
             estimated = [p for p in shapes if p.grid and p.variable.name not in excluded]
