@@ -174,7 +174,8 @@ def of_model_before(answer: Answer) -> str:
     added = [effect_words(name) for name in answer.model.file.effects]
     if not added:
         return ""
-    return f"which run would confirm {' and '.join(added)}, which its file has, is asked of the model that it was added to (`rvwear next` of that)"
+    told = f"which run tells {' and '.join(added)}, which its file has, from what came nearest to it"
+    return f"{told} is asked of the model that it was added to (`rvwear next` of that)"
 
 
 def weighed(answer: Answer, campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:

@@ -88,15 +88,6 @@ def test_a_position_is_said_to_belong_to_the_bench():
     assert "locked_at" not in commands.line_after(given, answer_of(INCOMPLETE, ["drag"]))
 
 
-def test_what_an_effect_does_is_shown_of_the_reducer_at_hand():
-    """The ideal one is shown without --reducer, whose lost motion changes twelve times as much."""
-    answer = answer_of(ONE, ["drag"])
-    answer.model.file = load_model("BX-40E")
-    given = parser().parse_args(shlex.split(commands.look_line(answer).partition("    #")[0])[1:])
-    assert (given.name, given.reducer) == ("drag", "BX-40E")
-    assert commands.look_line(answer_of(NONE, [])) == ""
-
-
 def test_where_nothing_can_be_added_no_line_says_so():
     given = parser().parse_args(["diagnose", "RV20E-121", "my bench"])
     assert commands.line_after(given, answer_of(BASE_OFF, [], off=[("declared", None)])) == ""

@@ -176,7 +176,7 @@ def test_of_a_model_with_its_effect_in_it_next_says_of_which_model_to_ask():
     answer = answer_of(NONE)
     assert "is asked of the model" not in proposal_for(answer, CAMPAIGN).verdict
     answer.model.file.effects = {"disc_tooth_errors": {}}
-    assert "which run would confirm disc tooth errors, which its file has, is asked of the model that it was added to" in proposal_for(answer, CAMPAIGN).verdict
+    assert "which run tells disc tooth errors, which its file has, from what came nearest to it is asked of the model that it was added to" in proposal_for(answer, CAMPAIGN).verdict
 
 
 def test_what_next_says_is_parted_in_short_lines(capsys):

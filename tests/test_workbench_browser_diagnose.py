@@ -25,6 +25,19 @@ PAST = """async () => {
   }"""
 
 
+def test_what_was_opened_stays_open_when_a_result_arrives(bench):
+    """Three sections of the evidence closed whenever an experiment was asked for."""
+    bench.view("diagnose")
+    assert bench.page.evaluate("""async () => {
+        const { h, redraw } = await import("./static/dom.js");
+        const parts = () => ["Rivals", "How well"].map((text) => h("details", {}, h("summary", {}, text), h("p", {}, "told")));
+        const place = redraw(h("div", {}), parts());
+        place.lastChild.open = true;
+        redraw(place, parts());
+        return [...place.children].map((part) => part.open);
+    }""") == [False, True]
+
+
 def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
     """The error on unused runs rose: in bad colours, no units to build, the other of what was named to try instead."""
     page = bench.page

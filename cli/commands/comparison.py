@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, lines_after_extending, look_line, named_in, nothing_added, refit_text, refusal
+from cli.commands.going_on import extend_line, line_after, lines_after_extending, named_in, nothing_added, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
@@ -171,8 +171,6 @@ def run_diagnose(options: argparse.Namespace) -> int:
     if not options.json:
         if line := line_after(options, answer):
             print(f"\nnext  {line}")
-        if line := look_line(answer):
-            print(f"look  {line}")
         if options.draft:
             if draft:
                 say_file(draft, "\ndraft  ")

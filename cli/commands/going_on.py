@@ -48,15 +48,6 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 
 
-def look_line(answer: "Answer") -> str:
-    """The command that shows what a named effect does on the reducer at hand; empty where no effect of the catalogue is named.  Without a reducer it shows an
-    ideal one, on which much is many times larger or smaller."""
-    if not answer.effects:
-        return ""
-    words = ["rvwear", "effects", answer.effects[0]["name"], "--reducer", answer.model.file.reducer.as_named]
-    return f"{shlex.join(words)}    # what it does to each figure of this reducer"
-
-
 def lines_after_extending(options: argparse.Namespace, model: str) -> str:
     """The command lines with which one goes on from a model that has what was missing."""
     more = [options.campaign, *(["--data", options.data] if options.data else [])]

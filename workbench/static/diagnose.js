@@ -1,7 +1,7 @@
 // Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
 
 import { addPart, ladder, nextPart } from "./better.js";
-import { clear, command, duration, h, note, why, words } from "./dom.js";
+import { clear, command, duration, h, note, redraw, why, words } from "./dom.js";
 import { doubtsBefore } from "./doubts.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
@@ -134,7 +134,7 @@ export function show(root, context) {
       return;
     }
     const old = past(answer, context.state.jobs.diagnose, context);
-    clear(
+    redraw(
       body,
       exported(context, "diagnose"),
       dimmed(
@@ -162,7 +162,7 @@ export function show(root, context) {
       ),
     );
     const bag = { answer, next, extension, built, context, old };
-    clear(after, nextPart(bag), addPart(bag), ladder(bag));
+    redraw(after, nextPart(bag), addPart(bag), ladder(bag));
     doing();
   }
 

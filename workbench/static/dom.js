@@ -20,6 +20,15 @@ export const clear = (element, ...children) => {
   return element;
 };
 
+// As ``clear``; what somebody has opened stays open.
+export const redraw = (element, ...children) => {
+  const name = (part) => `${part.id} ${part.querySelector("summary")?.textContent}`;
+  const opened = new Set([...element.querySelectorAll("details[open]")].map(name));
+  clear(element, ...children);
+  for (const part of element.querySelectorAll("details")) if (opened.has(name(part))) part.open = true;
+  return element;
+};
+
 export function choose(options, value, onchange, given = {}) {
   const all = options.map((o) => (Array.isArray(o) ? o : [o, o]));
   if (value && !all.some(([v]) => v === value)) all.unshift([value, value]);
