@@ -83,12 +83,11 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
     from discrepancy.verdict import AnswerSoFar
 
     stopped, began = False, time.time()
-    with task("diagnosing"):
-        file, campaign = inputs(folder, given)
-        try:
-            answer = diagnosed(file, campaign, jobs=jobs)
-        except AnswerSoFar as stop:
-            answer, stopped = stop.answer, True
+    file, campaign = inputs(folder, given)
+    try:
+        answer = diagnosed(file, campaign, jobs=jobs)
+    except AnswerSoFar as stop:
+        answer, stopped = stop.answer, True
     found = answer.made if answer.made < began else None
     with task(PAGE_OF_FOUND if found else "drawing the page"):
         with with_profiles(answer, file, campaign):

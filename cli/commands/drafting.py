@@ -41,8 +41,7 @@ def run_draft(options: argparse.Namespace, file: "ModelFile", campaign: "Campaig
     if options.effect:
         raise InputFault("--draft writes an effect of its own; give either --draft or --effect")
     require_folder(folder)
-    with task("diagnosing"):
-        answer = diagnosed(file, campaign, jobs=all_cores())
+    answer = diagnosed(file, campaign, jobs=all_cores())
     drafts, reasons = drafts_of(answer, folder, options.name)
     if not drafts:
         return nothing_added(options, answer, no_draft(options, answer, reasons))
