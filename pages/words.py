@@ -1,4 +1,4 @@
-"""Numbers in print."""
+"""Numbers in print, and words at the beginning of a sentence."""
 
 import math
 
@@ -19,6 +19,11 @@ def number(value: float | None, digits: int = 3) -> str:
         return f"{value:.{digits - 1}e}"
     text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
     return text.replace("-", "−")
+
+
+def capital(text: str) -> str:
+    """The first letter large, all others as they are: names keep theirs."""
+    return text[:1].upper() + text[1:]
 
 
 def counted(count: int, noun: str) -> str:

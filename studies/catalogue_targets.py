@@ -42,11 +42,11 @@ class Target:
 
 
 def asked_of(given: Given | None) -> dict[str, float]:
-    """What the catalogue says, by name; a lost motion that is the usual one and made nothing is nobody's."""
+    """What the catalogue says, by name."""
     if given is None:
         return {}
     stiff = {} if given.stiffness is None else {STIFFNESS: given.stiffness}
-    return stiff | ({LOST_MOTION: given.lost_motion} if given.made or given.lost_motion != Given.lost_motion else {})
+    return stiff | ({LOST_MOTION: given.lost_motion} if given.asks_lost_motion else {})
 
 
 def tested(reducer: Reducer) -> Hysteresis | None:

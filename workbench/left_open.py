@@ -4,6 +4,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from fmu_src.faults import InputFault
+from pages.words import capital
 from workbench.folder import Folder
 from workbench.page_words import on_page
 
@@ -39,4 +40,4 @@ def left_open_in(file: "ModelFile", folder: Folder) -> list[str]:
 
 def sentence(text: str) -> str:
     # A name stays what it is.
-    return on_page(f"{text}." if "." in text.partition(" ")[0] else f"{text[0].upper()}{text[1:]}.")
+    return on_page(f"{text}." if "." in text.partition(" ")[0] else f"{capital(text)}.")

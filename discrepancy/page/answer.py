@@ -17,7 +17,7 @@ from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS,
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from pages.content import Card, Page
-from pages.words import number
+from pages.words import capital, number
 
 
 def page(answer: Answer) -> Page:
@@ -61,11 +61,11 @@ def sentence(answer: Answer) -> str:
         best, together = answer.effects[0], wording.together_text(answer)
         error = wording.error_text(answer, best)
         share = f"It {wording.share_text(answer, best['share_explained'])}{f'; {error}' if error else ''}"
-        said += f" {f'{together[:1].upper()}{together[1:]}' if together else share}.".replace("->", "→")
+        said += f" {capital(together) if together else share}.".replace("->", "→")
     if answer.verdict in (UNKNOWN, SEVERAL):
-        said += f" ({reason_text(answer)[:1].upper()}{reason_text(answer)[1:]}.)"
+        said += f" ({capital(reason_text(answer))}.)"
     if answer.verdict == NONE and (figure := answer.reason.partition("; ")[2]):
-        said += f" {figure[:1].upper()}{figure[1:]}."
+        said += f" {capital(figure)}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
     sizes = left_sizes(answer, signal_title)
     return said + (f" Left are: {left}." if left else "") + (f" {capital(SAMPLES)}: {sizes}." if sizes else "")
@@ -141,10 +141,6 @@ def unused(answer: Answer, best: dict[str, Any]) -> Card:
         tone_of(answer, best),
         whys.of_unused(answer, best["held_out_error_before"], best["held_out_error_after"]),
     )
-
-
-def capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 def cards(answer: Answer) -> list[Card]:

@@ -17,7 +17,7 @@ from discrepancy.verdict import Answer
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from pages.words import counted, number
+from pages.words import capital, counted, number
 
 FITTED, HELD = "fitted", "held out"
 MOST_CARDS = 6
@@ -106,7 +106,7 @@ def cards(result: Comparison) -> list[Card]:
         rows = [r for r in rows if r["held_out"]] or rows
     return [
         Card(
-            place(row)[:1].upper() + place(row)[1:],
+            capital(place(row)),
             number(row["ratio"]),
             f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
             unit="times noise, all samples",

@@ -17,7 +17,7 @@ from discrepancy.wording import fitted_together, not_judged_text, percent, toget
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
-from pages.words import number
+from pages.words import capital, number
 
 MOST_RIVALS = 12
 SHARES = "Share of the misfit explained"
@@ -132,7 +132,7 @@ def by_signal(answer: Answer, signals: dict[str, Any], effect: str) -> Figure:
     )
     return bars.pairs(
         "held_out_signals",
-        SAMPLES[:1].upper() + SAMPLES[1:],
+        capital(SAMPLES),
         f"Root mean square over the runs of a signal, before and with {effect}; {OF_SAMPLES}.",
         [amounts.signal_title(n) for n in names],
         ratio["before"],

@@ -12,7 +12,7 @@ from discrepancy.wording import signals_left
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
-from pages.words import number
+from pages.words import capital, number
 
 TONES = {HELPED: "good", DID_NOT_HELP: "bad"}
 
@@ -73,13 +73,13 @@ def model_page(file: ModelFile) -> Page:
 def reason_text(step: Step) -> str:
     """Why a step has its verdict, in the words and signs of a page; steps of before may begin otherwise."""
     text = amounts.in_words(step.reason).replace("->", "→")
-    return text[:1].upper() + text[1:]
+    return capital(text)
 
 
 def left_sentence(step: Step) -> str:
     """What is left after a step, for the end of a finding."""
     text = signals_left(step.left, amounts.signal_title)
-    return f" {text[:1].upper()}{text[1:]}." if text else ""
+    return f" {capital(text)}." if text else ""
 
 
 def conditions(file: ModelFile) -> str:
@@ -95,8 +95,8 @@ def cards(step: Step) -> list[Card]:
         signal, off, unused = step.samples
         tone = "good" if unused and step.verdict == HELPED else "plain"
         note = f"{amounts.signal_title(signal)}, {UNUSED if unused else FITTED}"
-        made.append(Card(SAMPLES[:1].upper() + SAMPLES[1:], number(off.after), note, number(off.before), OF_SAMPLES, tone))
-    name = PATTERNS[:1].upper() + PATTERNS[1:]
+        made.append(Card(capital(SAMPLES), number(off.after), note, number(off.before), OF_SAMPLES, tone))
+    name = capital(PATTERNS)
     for key, text, note in (
         ("held_out", f"{name}, {UNUSED}", "what the verdict rests on"),
         ("training", f"{name}, {FITTED}", "any effect can lower it"),
@@ -117,9 +117,9 @@ def signal_figure(step: Step, place: int = 0) -> Figure:
         [f"{amounts.text(getattr(r, k), r.unit, r.signal)}, noise {amounts.text(r.noise_floor, r.unit, r.signal)}" for r in rows]
         for k in ("before", "after")
     )
-    title = f"Step {place}: {step.label}" if place else SAMPLES[:1].upper() + SAMPLES[1:]
+    title = f"Step {place}: {step.label}" if place else capital(SAMPLES)
     caption = (
-        f"{step.verdict[:1].upper() + step.verdict[1:]}: {reason_text(step)}."
+        f"{capital(step.verdict)}: {reason_text(step)}."
         if place
         else f"Root mean square over the runs of each signal, the noise that of replicates; {OF_SAMPLES}."
     )

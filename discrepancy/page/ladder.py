@@ -8,6 +8,7 @@ from discrepancy.page.bars import noise_line
 from discrepancy.sample_errors import OF_PATTERNS, PATTERNS
 from pages import look
 from pages.look import Figure, short
+from pages.words import capital
 
 # From this ratio of the largest to the smallest error on the axis is logarithmic.
 WIDE = 8.0
@@ -101,7 +102,7 @@ def figure(steps: Sequence[Step], name: str = "ladder") -> Figure:
         f"Over all signals; {OF_PATTERNS}. A dotted line with a cross is an attempt "
         "that did not help: the model stayed as it was."
     )
-    return Figure(name, f"{PATTERNS[:1].upper() + PATTERNS[1:]}, step by step", caption, traces, layout, 12, 380)
+    return Figure(name, f"{capital(PATTERNS)}, step by step", caption, traces, layout, 12, 380)
 
 
 def clean(values: Sequence[float | None]) -> list[float | None]:

@@ -13,7 +13,7 @@ from fmu_src.arrays import Floats
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
-from pages.words import number
+from pages.words import capital, number
 
 MOST_FORMS = 8
 MOST_SHARE_HIDDEN = 0.02
@@ -54,7 +54,7 @@ def figures(law: Recovered, speed: Scale) -> list[Figure]:
 def sentence(law: Recovered) -> str:
     """The best form in words."""
     text = law.text.replace(law.signal, amounts.signal_title(law.signal))
-    return text[:1].upper() + text[1:] + "."
+    return capital(text) + "."
 
 
 def told(law: Recovered, x: Floats) -> Floats:

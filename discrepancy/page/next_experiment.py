@@ -12,7 +12,7 @@ from discrepancy.page.evidence import listed
 from pages import look
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure, short
-from pages.words import number
+from pages.words import capital, number
 
 MOST = 12
 # What an experiment is expected to do is shown by nothing yet: no green.
@@ -47,7 +47,7 @@ def page(run: NextRun) -> Page:
 
 
 def sentences(lines: Sequence[str]) -> str:
-    return " ".join(f"{line[:1].upper()}{line[1:]}." for line in map(readable, map(amounts.with_titles, lines)))
+    return " ".join(f"{capital(line)}." for line in map(readable, map(amounts.with_titles, lines)))
 
 
 def cards(run: NextRun, currency: str) -> list[Card]:

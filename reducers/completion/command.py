@@ -21,7 +21,7 @@ def words_of(given: Given) -> list[str]:
     words += ["--rated", typed(given.rated)]
     words += ["--speed", typed(given.speed), *(["--cranks", str(given.cranks)] if given.cranks is not None else []), "--rollers", str(given.rollers)]
     words += ["--diameter", typed(given.diameter)] if given.diameter is not None else []
-    words += ["--lost-motion", typed(given.lost_motion)] if given.made or given.lost_motion != Given.lost_motion else []
+    words += ["--lost-motion", typed(given.lost_motion)] if given.asks_lost_motion else []
     words += ["--stiffness", typed(given.stiffness)] if given.stiffness is not None else []
     for name, value in measured(given).items():
         words += ["--known", f"{name}={with_unit(value, UNITS[name])}"]
@@ -41,7 +41,7 @@ def given_words(given: Given) -> str:
     usual = {f.name: f.default for f in fields(given)}
     own = {"speed": f"{given.speed:g} rpm of the output", "rollers": f"{given.rollers} rollers a bearing"}
     said += [text if getattr(given, name) != usual[name] else f"{text} (as usual)" for name, text in own.items()]
-    said += [f"lost motion {given.lost_motion:g} arcmin"] if given.made or given.lost_motion != Given.lost_motion else []
+    said += [f"lost motion {given.lost_motion:g} arcmin"] if given.asks_lost_motion else []
     said += [f"torsional stiffness {given.stiffness:g} N.m/arcmin"] if given.stiffness is not None else []
     return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in measured(given).items())])
 

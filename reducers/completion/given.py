@@ -42,6 +42,11 @@ class Given:
     made: Mapping[str, float] = field(default_factory=dict)
     stiffness: float | None = None
 
+    @property
+    def asks_lost_motion(self) -> bool:
+        """Whether the lost motion is somebody's: the usual one that made nothing is nobody's."""
+        return bool(self.made) or self.lost_motion != Given.lost_motion
+
     def __post_init__(self) -> None:
         self.check_numbers()
         if self.lobes is not None and self.lobes != self.pins - 1:

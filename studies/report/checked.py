@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
+from pages.words import capital
 from reducers.checking import STATED, Check, Stated
 from reducers.completion.again import given_again
 from studies.catalogue_targets import Target
@@ -35,7 +36,7 @@ def page_of(found: Check, targets: Sequence[Target] = ()) -> Page:
         ]),
     ]  # fmt: skip
     counts = f"{t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.lobes} lobes"
-    return Page("reducer file", found.reducer.name, counts, f"{found.outcome[0].upper()}{found.outcome[1:]}.", cards, sections, found.doubts)
+    return Page("reducer file", found.reducer.name, counts, f"{capital(found.outcome)}.", cards, sections, found.doubts)
 
 
 def table(title: str, numbers: list[Stated]) -> Table:

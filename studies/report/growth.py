@@ -7,6 +7,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from pages import look
 from pages.look import Figure, short
+from pages.words import capital
 from studies.figure_units import OVER_TURN, RUNNING, WINDOW
 from studies.report.result import Result
 
@@ -30,7 +31,7 @@ def figures(result: Result) -> list[Figure]:
               f" Second stage alone: against the cranks, {WINDOW}, so it misses what errors fixed to the ring do elsewhere."),
         small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/arcmin]",
               [("torsional_stiffness_Nm_per_arcmin", "second stage", LOAD, "solid")],
-              f"Contacts of the second stage alone, {WINDOW}. {RUNNING[0].upper()}{RUNNING[1:]}."),
+              f"Contacts of the second stage alone, {WINDOW}. {capital(RUNNING)}."),
         small(result, "growth_force", "Peak forces", "force [N]", [("peak_pin_force_N", "pin", LOAD, "solid"),
               ("peak_roller_force_N", "roller", SECOND, "dash")], f"Largest force on any pin and on any roller, {WINDOW}."),
         small(result, "growth_pressure", "Peak contact pressure", "Hertz pressure [MPa]",
