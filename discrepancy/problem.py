@@ -152,6 +152,7 @@ class Candidate:
     the effect vanishes exactly, whatever its ``shapes``.  ``shape_grid`` lists the values of
     the shape parameters at which the screening looks; empty without shape parameters.
     ``signals`` names the quantities that the effect can touch (empty: any).
+    ``families`` names orders that show it as soon as the model has placed it in each record (``Settling``), and hardly before.
     """
 
     name: str
@@ -161,6 +162,7 @@ class Candidate:
     shape_grid: tuple[Mapping[str, float], ...] = ()
     signals: tuple[str, ...] = ()
     part: str = "plant"
+    families: tuple[str, ...] = ()
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:

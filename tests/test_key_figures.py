@@ -11,7 +11,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
 from discrepancy.prediction import bench as virtual
-from discrepancy.prediction.orders import named_orders
+from discrepancy.prediction.orders import ROLLERS, named_orders
 from discrepancy.problem import Candidate, Parameter, Record
 from discrepancy.stiffest import SUPPORTS, times_with_rigid_supports, too_soft
 from reducers.reducer import load_reducer
@@ -128,9 +128,18 @@ def test_amplitudes_of_orders_that_are_resolved():
 @pytest.mark.parametrize("times, name", [(3.0, "sun (order 120 also 3 x crank against carrier)"), (2.6, "sun")])
 def test_an_order_of_two_makers_names_both(times, name):
     """A whole first stage puts the sun's turns against the carrier on the third harmonic of the cranks', which a hole off its place makes, too."""
-    reducer = SimpleNamespace(topology=SimpleNamespace(lobes=39, pins=40, discs=2))
-    made = named_orders(SimpleNamespace(reducer=reducer, ratio=1.0 + 40.0 * times, starts=[{"first_stage_ratio": times, "sun_teeth": 12.0}]))
+    reducer = SimpleNamespace(topology=SimpleNamespace(lobes=39, pins=40, discs=2, rollers=16))
+    starts = [{"first_stage_ratio": times, "sun_teeth": 12.0, "inner_race_radius": 10e-3, "outer_race_radius": 15e-3}]
+    made = named_orders(SimpleNamespace(reducer=reducer, ratio=1.0 + 40.0 * times, starts=starts))
     assert made[name] == (40.0 * times, 1.0 + 40.0 * times) and [n for n in made if n.startswith("sun")] == [name]
+
+
+def test_rollers_pass_a_race_at_orders_of_their_own():
+    """361 a turn over the crank and 279 over the disc of this reducer, as published (docs/effects.md, race spall)."""
+    bench = virtual.Bench(load_reducer("RV20E-121"), {})
+    made = named_orders(bench)
+    assert [made[name][1] for name in ROLLERS] == pytest.approx([361.0, 279.0], abs=0.2)
+    assert all(np.diff(made[name]) == pytest.approx(bench.reducer.topology.pins) for name in ROLLERS)
 
 
 def test_figures_hold_what_was_measured_against_the_model_with_noise():

@@ -93,7 +93,8 @@ class Selection:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted(self.race("fitting alone", chosen), key=penalised)
+        fits = sorted([*self.race("fitting alone", chosen), *self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())],
+                      key=penalised)  # fmt: skip
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
@@ -106,6 +107,11 @@ class Selection:
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
+
+    def shown(self) -> list[Score]:
+        """Candidates that are known by orders alone, where the misfit has these."""
+        orders = {finding.feature.removeprefix("orders: ") for finding in self.judgement.localisation.findings}
+        return [s for s in self.screening.scores if orders & set(self.refits.by_name[s.name].families)]
 
     def first_tried(self, scores: list[Score], top: float) -> list[Score]:
         """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""

@@ -10,7 +10,7 @@ import numpy as np
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, identity
 from discrepancy.prediction.curves import nodes_of, signal
-from discrepancy.prediction.over_angle import OverAngle
+from discrepancy.prediction.over_angle import OverAngle, mean
 from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.support import angle_nodes
 from discrepancy.problem import Record
@@ -61,9 +61,13 @@ def is_seen(curve: OverAngle) -> bool:
 
 def to_first_order(curve: OverAngle, values: Values, angles: Floats, cages: Sequence[float]) -> Iterator[Floats]:
     """What cages each of ``cages`` [rad] ahead change at ``angles`` [rad]."""
-    there = curve.bench.error_beside(curve.condition, values, angles, values, angles)
+
+    def ahead(cage: float) -> Floats:
+        return curve.bench.error_beside(curve.condition, values, angles, values, angles, cage)
+
+    there = mean([ahead(cage) for cage in curve.cages(values)])
     for cage in cages:
-        yield curve.bench.error_beside(curve.condition, values, angles, values, angles, cage) - there
+        yield ahead(cage) - there
 
 
 def misses(curve: OverAngle, change: Floats) -> bool:
@@ -78,5 +82,5 @@ def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence
 
 def ripples(curve: AnyCurve, values: Values, cages: Sequence[float]) -> list[Floats]:
     """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
-    without, *ahead = (signal(replace(curve, cage=cage), values) for cage in (0.0, *cages))
-    return [series - without for series in ahead]
+    without = signal(curve, values)
+    return [signal(replace(curve, cage=cage), values) - without for cage in cages]

@@ -6,6 +6,7 @@ own: found anew when the effect is fitted for good.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
+from discrepancy.prediction.over_angle import CAGES, is_rolled_over
 from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record, is_unplaced
@@ -27,10 +29,12 @@ from fmu_src.threads import Threads
 LONG, LONG_LOOP = 40, 16
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
-# Parts of the pitch beside 0 at which the ripple is looked at.
-QUARTERS = (0.25, 0.5, 0.75)
+# Parts of the pitch at which the ripple is looked at.
+QUARTERS = (0.0, 0.25, 0.5, 0.75)
 # A place that is known so well is looked for once more, so far to either side, at so many places.
 KNOWN, BESIDE, LOOKS = 0.9, 0.08, 17
+# Steps in which the place of a ripple that has kinks is looked for once more.
+STEPS = (0.04, 0.01)
 # Places at which the ripple is computed, at most; by so much a series through twice as many misses less.
 MOST_PLACES, DOUBLED = 16, 3.0
 # What it may miss, of what a prediction may err.
@@ -47,48 +51,64 @@ class Cages:
 
     def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen, threads: Threads):
         self.bench, self.as_seen, self.threads = bench, as_seen, threads
+        self.pitch = 2.0 * np.pi / bench.reducer.topology.rollers
         self.records = apart([bridged(r) for r in records if tells(r) or is_unplaced(r)])
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
+        # Where the cages stand ahead [rad], by run, if an effect acts as each roller passes: it is seen with them there.
+        self.ahead: dict[frozenset[str], dict[str, float]] = {}
 
     def effects(self, values: Mapping[str, float]) -> frozenset[str]:
         """The effects' amplitudes that are on."""
         return frozenset(n for n, v in values.items() if n in self.amplitudes and v != self.amplitudes[n])
 
+    def placed(self, record: Record, effects: frozenset[str]) -> Record:
+        """The record with its cages where they stand, if that is known beside ``effects`` that act as each roller passes."""
+        cage = self.ahead.get(effects, {}).get(record.name)
+        return record if cage is None else replace(record, factors={**record.factors, CAGES: cage})
+
     def ripple(self, record: Record, values: Mapping[str, float]) -> Floats | None:
         """What the record's cages add [rad] to a prediction with the cages where rolling from 0 brings them."""
-        placed = self.ripples.get(self.effects(values)) or self.ripples.get(frozenset(), {})
+        effects = self.effects(values)
+        if record.name in self.ahead.get(effects, {}):
+            return None
+        placed = self.ripples.get(effects) or self.ripples.get(frozenset(), {})
         return placed.get(record.name)
 
     def place(self, values: Mapping[str, float], names: Collection[str] | None = None) -> bool:
         """Find the cages with ``values``, of runs of these ``names`` alone where some are given; False if there is nothing to find them by."""
 
-        def one(record: Record) -> Floats | None:
+        def one(record: Record) -> Floats | float | None:
             seen, own = self.as_seen(record, values)
             # A mean over positions of the cranks is one over those of the cages.
             return self.found(seen, own) if tells(seen) else None
 
+        self.ahead.pop(self.effects(values), None)
         chosen = [record for record in self.records if names is None or record.name in names]
         made = self.threads.told("placing the roller cages", one, chosen, lambda record: record.name)
-        found = {record.name: ripple for record, ripple in zip(chosen, made) if ripple is not None}
-        self.ripples[self.effects(values)] = found
+        found = {record.name: place for record, place in zip(chosen, made) if place is not None}
+        self.ripples[self.effects(values)] = {name: place for name, place in found.items() if not isinstance(place, float)}
+        if ahead := {name: place for name, place in found.items() if isinstance(place, float)}:
+            self.ahead[self.effects(values)] = ahead
         return bool(found)
 
-    def found(self, record: Record, own: dict[str, float]) -> Floats:
+    def found(self, record: Record, own: dict[str, float]) -> Floats | float:
+        """What the record's cages add [rad]; where an effect acts as each roller passes and it is known how far ahead they stand, that [rad]."""
         few = record if record.quantity in HELD else fewer(record, turns_of(self.bench, record))
         if few is record:
-            there, ahead = OBSERVED[record.quantity](self.bench, record, own), ripples_of_cages(self.bench, record, own, QUARTERS)
+            there, ripples = OBSERVED[record.quantity](self.bench, record, own), np.array(ripples_of_cages(self.bench, record, own, QUARTERS))
         else:
-            there, ahead = self.roughly(few, own, QUARTERS)
-        ripples = np.array([np.zeros(len(few.values)), *ahead])
-        middle, cosine, sine = ripples.mean(axis=0), -0.5 * ripples[2], 0.5 * (ripples[1] - ripples[3])
+            there, ripples = self.roughly(few, own)
+        middle, cosine, sine = ripples.mean(axis=0), 0.5 * (ripples[0] - ripples[2]), 0.5 * (ripples[1] - ripples[3])
         misfit = few.values - there
         share, sure = resultant(np.column_stack([cosine, sine]), misfit - middle)
+        if sure > KNOWN and record.quantity not in HELD and is_rolled_over(self.bench, own):
+            return self.pitch * (share if few is not record else self.closest(record, own, misfit, share))
         if few is not record:
             [ripple] = ripples_of_cages(self.bench, record, own, [share])
             exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)
-            ahead = ripples_of_cages(self.bench, record, own, QUARTERS, True) if exactly else self.roughly(record, own, QUARTERS)[1]
-            middle = sum(ahead, np.zeros(len(record.values))) / 4.0
+            ahead = np.array(ripples_of_cages(self.bench, record, own, QUARTERS, True)) if exactly else self.roughly(record, own)[1]
+            middle = ahead.mean(axis=0)
         elif sure > KNOWN:
             # Shared by all runs of a condition, wherever their cages stand.
             ripples = self.closer(record, own, ripples)
@@ -110,11 +130,20 @@ class Cages:
             ripples = np.stack([ripples, new], axis=1).reshape(-1, ripples.shape[1])
         return ripples
 
-    def roughly(self, record: Record, own: dict[str, float], shares: Sequence[float]) -> tuple[Floats, list[Floats]]:
-        """Transmission error [rad] where rolling from 0 brings the cages, and its ripple at ``shares`` ahead, which errs by ``RIPPLE_ERRS`` of itself."""
-        pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-        there, *ahead = errors_of_cages(self.bench, record, own, [share * pitch for share in (0.0, *shares)])
-        return there, [error - there for error in ahead]
+    def closest(self, record: Record, own: dict[str, float], misfit: Floats, share: float) -> float:
+        """The place next to ``share`` of the pitch at which the ripple leaves least of the ``misfit``, each computed where it is: it has kinks."""
+        for step in STEPS:
+            left = [misfit - ripple for ripple in ripples_of_cages(self.bench, record, own, (share - step, share, share + step))]
+            white = whitening(left[1])
+            before, at, after = (float(np.sum(white(series) ** 2)) for series in left)
+            share += step * vertex(before, at, after, 1.0)
+        return share
+
+    def roughly(self, record: Record, own: dict[str, float]) -> tuple[Floats, Floats]:
+        """Transmission error [rad] as it is predicted wherever cages stand, and its ripple at ``QUARTERS``, which errs by ``RIPPLE_ERRS`` of itself."""
+        errors = np.array(errors_of_cages(self.bench, record, own, [share * self.pitch for share in QUARTERS]))
+        there: Floats = errors.mean(axis=0) if is_rolled_over(self.bench, own) else errors[0]
+        return there, errors - there
 
 
 def tells(record: Record) -> bool:

@@ -7,6 +7,7 @@ from itertools import product
 from discrepancy.effects import MODULES
 from discrepancy.held_names import HELD
 from discrepancy.model_file import every_effect, halves_of
+from discrepancy.prediction.orders import ROLLERS
 from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record, is_unplaced
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
@@ -111,7 +112,7 @@ def candidates(
                 f"{name}.{group.replace(' ', '_')}" if group else name, title,
                 tuple(parameter_of(p, float(p.variable.start)) for p in amplitudes),
                 tuple(within_ring(parameter_of(p, float(p.variable.start)), pins) for p in estimated),
-                shape_grid(estimated, pins // ways), seen, part,
+                shape_grid(estimated, pins // ways), seen, part, ROLLERS if effect.rolled_over else (),
             ))  # fmt: skip
     return tuple(found)
 

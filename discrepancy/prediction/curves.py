@@ -94,9 +94,10 @@ def nodes_of(curve: Curve[Nodes], values: Values) -> Nodes | None:
 def level_of(curve: Curve[Nodes], values: Values) -> int:
     """The level of ``nodes_of``."""
     fineness, away = curve.bench.fineness, curve.bench.away(values)
+    shown = fineness.largest(values) if fineness else values
 
     def change(nodes: Nodes) -> Floats:
-        return curve.run(values, nodes) - (curve.run({}, nodes) if away else 0.0)
+        return curve.run(shown, nodes) - (curve.run({}, nodes) if away else 0.0)
 
     return fineness.level(curve.record, away, errors_by_level(curve, change)) if fineness else EVERY_SAMPLE
 

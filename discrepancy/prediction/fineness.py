@@ -30,6 +30,7 @@ FURTHER = 1.25
 # A level's error over that of the next, where it falls fast.
 A_LEVEL = 2.0
 
+Values = Mapping[str, float]
 # Quantity and condition.
 Group = tuple[str, str]
 # What is away from the base model, and to which side.
@@ -64,6 +65,8 @@ class Fineness:
         self.base: dict[Group, int] = {}
         # Parameters that change nothing alone, only how an amplitude shows.
         self.shapes: set[str] = set()
+        # Those of which a change hangs so much that it is looked at where they start, where it is large.
+        self.steep: set[str] = set()
         # How far off it was, and the level that it needs.
         self.added: dict[Added, list[tuple[Floats, int]]] = {}
         # What is changed to first order needs, where nothing else is known.
@@ -116,6 +119,10 @@ class Fineness:
             return COARSEST
         others = [level_of(levels[added(g, amounts)]) for g in self.allowed if g[0] == group[0] and levels.get(added(g, amounts))]
         return COARSEST if others == [EVERY_SAMPLE] else min(others, default=COARSEST)
+
+    def largest(self, values: Values) -> Values:
+        """The values at which one looks how smooth their change is."""
+        return {name: value for name, value in values.items() if name not in self.steep} if self.steep else values
 
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from discrepancy.prediction.bench import Bench
 
 HARMONICS = 3
+# Passing rollers, by the race that they pass.
+ROLLERS = ("rollers over the crank", "rollers over the disc")
 # What a name says of orders that others make, too.
 REMARK = re.compile(r" \((order \S+ also [^)]*)\)")
 
@@ -31,11 +33,19 @@ def named_orders(bench: Bench, more: Mapping[str, tuple[float, ...]] | None = No
             "crank, absolute": (lobes,), "crank against carrier": (pins, 2 * pins),
             "ring pins": (2 * lobes, 4 * lobes, 6 * lobes),
         }  # fmt: skip
+    found |= dict(zip(ROLLERS, passing(bench)))
     found["pin mesh"] = (lobes * pins,)
     if bench.starts[0]["first_stage_ratio"] > 0.0:
         teeth = bench.starts[0]["sun_teeth"]
         found |= {sun(ratio - 1.0, pins): (ratio - 1.0, ratio), "first mesh": ((ratio - 1.0) * teeth,)}
     return found | dict(more or {})
+
+
+def passing(bench: Bench) -> list[tuple[float, ...]]:
+    """Orders in which rollers that roll without slip pass a place of the crank's race, and of the disc's, with what a turn of the crank makes of them."""
+    topology, inner, outer = bench.reducer.topology, bench.starts[0]["inner_race_radius"], bench.starts[0]["outer_race_radius"]
+    shares = (outer / (inner + outer), inner / (inner + outer))
+    return [tuple(topology.pins * (topology.rollers * share + k) for k in (-1, 0, 1)) for share in shares]
 
 
 def sun(against_carrier: float, pins: int) -> str:

@@ -15,6 +15,7 @@ from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, 
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
+from rv_plant.effects import EFFECTS as PLANT
 
 # Fewer samples than these are computed where they are.
 LEAST_SAMPLES = 16
@@ -23,8 +24,24 @@ LEAST_SAMPLES = 16
 FIRMLY, LEAST_SHARE = 0.1, 0.01
 # Decimals of an angle [rad] to which outputs that lag alike stand in one place.
 ALIKE = 10
+# How far a record's cages stand ahead [rad], among its factors; where there is none nobody knows it.
+CAGES = "cages"
+# Places of the cages whose mean is that of all.
+ANYWHERE = 4
+# Amplitudes of effects that act as each roller passes, and where they are off.
+ROLLED_OVER = {p.variable.name: p.variable.start for effect in PLANT.values() if effect.rolled_over for p in effect.amplitudes()}
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
+
+
+def is_rolled_over(bench: Bench, values: Values) -> bool:
+    """Whether an effect is on that acts as each roller passes."""
+    return any(values.get(name, bench.starts[0][name]) != off for name, off in ROLLED_OVER.items())
+
+
+def mean(curves: list[Floats]) -> Floats:
+    found: Floats = curves[0] if len(curves) == 1 else np.mean(curves, axis=0)
+    return found
 
 
 class Support(NamedTuple):
@@ -37,12 +54,42 @@ class Support(NamedTuple):
 
 @dataclass(frozen=True)
 class OverAngle:
-    """Column ``name`` of the running bench (``studies.coupled.COLUMNS``); cages ``cage`` ahead [rad]."""
+    """Column ``name`` of the running bench (``studies.coupled.COLUMNS``); cages ``cage`` ahead [rad], None: where the record has them."""
 
     bench: Bench
     record: Record
     name: str
-    cage: float = 0.0
+    cage: float | None = None
+
+    def cages(self, *shown: Values) -> list[float]:
+        """Where the cages stand ahead [rad]: equally often anywhere in a pitch where an effect is on that shows another curve with each place."""
+        cage = self.record.factors.get(CAGES) if self.cage is None else self.cage
+        if cage is not None:
+            return [cage]
+        if not any(is_rolled_over(self.bench, values) for values in shown):
+            return [0.0]
+        pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
+        return [pitch * k / ANYWHERE for k in range(ANYWHERE)]
+
+    def column(self, values: Values, angles: Floats, starts: Starts | None = None) -> Floats:
+        """The signal at ``angles`` [rad]: of the base model with its cages at 0, and what ``values`` change in it wherever they stand."""
+
+        def at(shown: Values, cage: float) -> Floats:
+            return self.bench.column(self.name, self.condition, shown, angles, cage, starts)
+
+        cages, own = self.cages(values), self.cages({})
+        if cages == own:
+            return mean([at(values, cage) for cage in cages])
+        return at({}, own[0]) + mean([at(values, cage) - at({}, cage) for cage in cages])
+
+    def first_order(self, high: tuple[Values, Floats], low: tuple[Values, Floats], run: Floats, starts: Starts | None = None) -> Floats:
+        """What a transmission error differs by to first order, of ``high`` values at some angles [rad] from ``low`` ones at others, next to the ``run``
+        with those at angles [rad] of its own."""
+
+        def at(shown: tuple[Values, Floats], cage: float) -> Floats:
+            return self.bench.error_beside(self.condition, *shown, low[0], run, cage, starts)
+
+        return mean([at(high, cage) - at(low, cage) for cage in self.cages(high[0], low[0])])
 
     @cached_property
     def condition(self) -> Condition:
@@ -66,11 +113,11 @@ class OverAngle:
         return {name: values[name] for name in places_of_zero(self.record) if name in values}
 
     def run(self, values: Values, nodes: AngleNodes) -> Floats:
-        return self.bench.column(self.name, self.condition, values, nodes.angles, self.cage)
+        return self.column(values, nodes.angles)
 
     def directly(self, values: Values) -> Floats:
         at = self.support(None, values)
-        return at.samples(self.bench.column(self.name, self.condition, values, at.angles, self.cage, at.starts))
+        return at.samples(self.column(values, at.angles, at.starts))
 
     def starts(self, values: Values, anchor: float) -> Starts:
         """Angles of runs near that with its angle 0 at ``anchor`` [rad]."""
@@ -102,8 +149,7 @@ class OverAngle:
 
     def beside(self, values: Values, base: Values, angles: Floats, starts: Starts | None = None) -> Floats:
         """What ``values`` change in a transmission error next to ``base`` at ``angles`` [rad], to first order."""
-        high, low = (self.bench.error_beside(self.condition, v, angles, base, angles, starts=starts) for v in (values, base))
-        return high - low
+        return self.first_order((values, angles), (base, angles), angles, starts)
 
     def at_stations(self, zero: float) -> Floats:
         """Angles [rad] of the stations in the order in which they are passed, with the record's angle 0 at ``zero``."""
@@ -172,14 +218,15 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
     curve = OverAngle(bench, record, "transmission_error")
     if curve.condition.hours > 0.0:
         return None
-    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(values, base, nodes.angles))
+    high, low = (bench.fineness.largest(v) if bench.fineness else v for v in (values, base))
+    # Of a shape alone nothing would be left.
+    shown = (high, low) if high != low else (values, base)
+    nodes = nodes_of_slopes(curve, values, base, lambda nodes: curve.beside(*shown, nodes.angles))
     turned = zero_of(bench, record, values) != zero_of(bench, record, base)
     if nodes is None and turned:
         at = curve.support(None, base)
-        high, low = (
-            bench.error_beside(curve.condition, v, curve.at_stations(zero_of(bench, record, v)), base, at.angles, starts=at.starts) for v in (values, base)
-        )
-        return curve.from_stations(high - low, 0.0)
+        there, here = ((v, curve.at_stations(zero_of(bench, record, v))) for v in (values, base))
+        return curve.from_stations(curve.first_order(there, here, at.angles, at.starts), 0.0)
     at = curve.support(nodes, values)
     change = at.samples(curve.beside(values, base, at.angles, at.starts))
     if turned:

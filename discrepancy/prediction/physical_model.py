@@ -80,7 +80,10 @@ class PhysicalModel(PlacedBeside):
         self.bench.fineness = Fineness(self.records)
         errors = [r for r in self.records if r.quantity == ERROR and {"angle", "time"} & r.axes.keys()]
         self.bench.stations = shared_stations(errors, lambda record: angles_of(self.bench, record, 0.0))
-        self.bench.fineness.shapes |= {p.variable.name for effect in every_effect().values() for p in effect.parameters if p.kind == "shape"}
+        for effect in every_effect().values():
+            shapes = {p.variable.name for p in effect.parameters if p.kind == "shape"}
+            self.bench.fineness.shapes |= shapes
+            self.bench.fineness.steep |= shapes if effect.rolled_over else set()
         for record in self.records:
             rows = distinct_conditions(self.bench, record)
             # A held test looks at a life under the rated load.

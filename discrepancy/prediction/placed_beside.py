@@ -124,7 +124,7 @@ class PlacedBeside:
 
     def found_beside(self) -> tuple[dict[Effects, Any], ...]:
         """Where everything is kept that is found beside effects."""
-        return self.locked_places.found, self.lags.found, self.locked_waves.found, self.unstated_places.found, self.cages.ripples
+        return self.locked_places.found, self.lags.found, self.locked_waves.found, self.unstated_places.found, self.cages.ripples, self.cages.ahead
 
     def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int], list[int]]:
         """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; transmission errors tell, of each load one is enough.
@@ -162,6 +162,6 @@ class PlacedBeside:
     def placed(self, record: Record, effects: Effects, values: Values, closely: bool = True) -> Record:
         """The record, as if locked where that is with the effects that are on: ``closely`` by their own values, else as it was placed with such last."""
         if record.quantity not in HELD:
-            return record
+            return self.cages.placed(record, effects)
         known = self.locked_waves.placed(self.locked_places.placed(record, effects, values if closely else None), effects)
         return self.unstated_places.placed(known, effects, values)

@@ -27,6 +27,7 @@ EFFECT = Effect(
         choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3, part="crank"),
     ),
     signals=("vibration", "hysteresis", "transmission_error"),
+    rolled_over=True,
 )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.directions import half_a_turn_on
-from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, left_by, there
+from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, jointly, left_by, there
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
@@ -62,6 +62,31 @@ class Refits:
             with self.space.predictions.roughly():
                 self.fitted[key] = refit(self.space, [self.by_name[n] for n in names], found, start, least=least)
         return in_order(self.fitted[key], [self.by_name[n] for n in names])
+
+    def placed(self, name: str) -> Refit:
+        """The refit of an effect that shows only where each record is placed with it: from that of its forms and places of the angles' zeros which
+        leaves least of the record with the largest misfit."""
+        model, space, candidate = self.space.model, self.space, self.by_name[name]
+        if not isinstance(model, Placing):
+            return self.fit([name])
+        base, parameters = space.base, (*space.model.nuisances, *candidate.parameters)
+        typical = {p.name: p.off + (p.sign or 1) * p.scale for p in candidate.amplitudes}
+        directions = [p.name for p in candidate.shapes if p.is_direction]
+        forms = [{**base.values, **typical, **{p.name: p.off for p in candidate.shapes}, **shape} for shape in candidate.shape_grid or ({},)]
+        starts = [{**form, **place} for form in forms for place in ({}, *model.waves_on(form, directions)[0])]
+        one = max((i for i in space.touched(candidate) if i in space.rows), key=lambda i: float(np.sum(base.residual[space.rows[i]] ** 2)))
+        alone = space.only([one])
+
+        def left(start: dict[str, float]) -> float:
+            space.predictions.settle(start, [one])
+            return float(np.sum(alone.residual(start) ** 2))
+
+        found = [left(start) for start in starts]
+        start = starts[int(np.argmin(found))]
+        space.predictions.settle(start)
+        with space.predictions.roughly():
+            self.fitted[frozenset([name])] = finished(space, [candidate], jointly(space, parameters, start, (name,)))
+        return self.fitted[frozenset([name])]
 
     def widened(self, result: Refit, least: float = np.inf) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
