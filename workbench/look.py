@@ -62,7 +62,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
-        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],
+        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()

@@ -14,6 +14,7 @@ from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis
 from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
+from discrepancy.wording import percent_of_misfit
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -70,8 +71,8 @@ def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
 
 
 def finding(result: Comparison) -> str:
-    """Worst signal, and whether the localisation finds anything."""
-    found = result.diagnostician.localisation.findings
+    """Worst signal, and what of it is off most, as far as the localisation finds anything."""
+    found = result.diagnostician.localisation.largest
     worst = max(result.signals, key=lambda s: s["ratio"], default=None)
     if worst is None:
         return "Nothing that was measured can be predicted by this model."
@@ -82,11 +83,11 @@ def finding(result: Comparison) -> str:
     )
     if not found:
         return start + " No place, order or dependence carries a significant misfit."
-    best = found[0]
+    best = next((g for g in found if g.signal == worst["signal"]), found[0])
     where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
     return (
         start
-        + f" The misfit is most significant in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({chance(best.p)})."
+        + f" What is off most in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({percent_of_misfit(best.share)} of all misfit, {chance(best.p)})."
     )
 
 
