@@ -83,3 +83,11 @@ def test_the_largest_share_stands_first(capsys):
                "share": g.share, "chi_square": g.chi_square} for g in groups()]  # fmt: skip
     assert [row[1] for row in place_table(places, 0.004).rows] == ["branch of torque", "orders: crank against carrier"]
     assert "6,230,000 of chi-square, tested as 844 as its signal is off all over" in whys.of_place(places[1], 0.004).data
+
+
+def test_what_is_held_out_is_counted_in_runs_and_conditions():
+    """"16 runs at 8 conditions, 2 of them held out" was read as two conditions: it was two runs of one."""
+    result = SimpleNamespace(model=SimpleNamespace(file=SimpleNamespace(effects={})))
+    runs = [SimpleNamespace(record=SimpleNamespace(condition=name, held_out=held)) for name, held in (("a", False), ("a", False), ("b", True), ("b", True))]
+    assert comparison.conditions(result, runs) == "4 runs at 2 conditions; held out: 2 runs at 1 condition; model without further effects"
+    assert comparison.conditions(result, runs[:2]).startswith("2 runs at 1 condition; held out: none;")

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.calibrated_deviations import deviations_of, unsure_text
+from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
@@ -70,9 +70,11 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
 
 def calibrated(result: Comparison) -> list[dict[str, str]]:
     """Calibrated numbers as `compare` tells them, with how sure they are where that is known."""
-    meanings, deviations = {p.name: p.description for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
+    base = result.diagnostician.space.base
+    meanings, deviations = {p.name: p.description for p in result.model.nuisances}, deviations_of(base)
     return [
-        {"name": told, "value": with_deviation(value, deviations.get(name, 0.0), scale).replace("+-", "±"), "meaning": meanings.get(name, "")}
+        {"name": told, "value": with_deviation(value, deviations.get(name, 0.0), scale).replace("+-", "±"),
+         "meaning": "; ".join(filter(None, [meanings.get(name, ""), AT_BOUND if stands_at_bound(base, name) else ""]))}
         for name, (told, value, scale) in zip(result.nuisances, calibrated_numbers(result.model, result.nuisances))
     ]
 

@@ -3,8 +3,8 @@
 from dataclasses import asdict, replace
 from typing import Any
 
-from discrepancy.calibrated_deviations import deviations_of, unsure_text
-from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers
+from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
+from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
@@ -62,10 +62,11 @@ def title(result: Comparison | Answer) -> str:
 
 def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     """How much was measured, and what the model carries."""
-    held = sum(run.record.held_out for run in runs)
+    held = [run.record for run in runs if run.record.held_out]
+    of_them = f"{counted(len(held), 'run')} at {counted(len({record.condition for record in held}), 'condition')}" if held else "none"
     count = len({run.record.condition for run in runs})
     effects = ", ".join(map(effect_words, result.model.file.effects))
-    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}, {held} of them held out; " + (
+    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}; held out: {of_them}; " + (
         f"model with {effects}" if effects else "model without further effects"
     )
 
@@ -228,8 +229,9 @@ def nuisances(result: Comparison) -> Section:
         parameter = known.get(name)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
         size = abs(scale.factor) * deviations.get(name, 0.0)
-        sure = f"{number(scale.number(value), 4)}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
-        rows.append([told, sure, amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        sure = f"{number(scale.number(value), digits_beside(scale.number(value), size))}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
+        doubt = AT_BOUND if stands_at_bound(base, name) else ""
+        rows.append([told, sure, amounts.pretty(scale.unit), prior, "; ".join(filter(None, [parameter.description if parameter else "", doubt]))])
     lead = (
         f"Fitted to the campaign before anything was compared; {unsure_text(base).replace('+-', '±') or '± is the standard deviation that noise leaves'}."
         if rows
