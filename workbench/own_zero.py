@@ -4,7 +4,7 @@ A comparison fits them once for all runs; here each curve has its own, which cos
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -48,4 +48,5 @@ def as_in_look(in_common: float, own: float, unit: str, by: float) -> str:
     """Why an error of one curve is ``own`` here and another one in Look, where all runs have one zero and one lag; empty where they are alike."""
     if abs(in_common - own) < ALIKE * own:
         return ""
-    return f"{number(in_common, 3)} {unit} at the one zero and lag that Look has for all runs: here the model is moved by {number(math.degrees(by), 2)} deg to its own"
+    moved_by = f"{number(math.degrees(by), 2)} deg"
+    return f"{number(in_common, 3)} {unit} at the one zero and lag that Look has for all runs: here the model is moved by {moved_by} to its own"

@@ -88,7 +88,8 @@ def finding(result: Comparison) -> str:
     where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
     return (
         start
-        + f" What is off most in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({percent_of_misfit(best.share)} of all misfit, {chance(best.p)})."
+        + f" What is off most in {amounts.signal_title(best.signal)}: {best.feature}, {where}"
+        f" ({percent_of_misfit(best.share)} of all misfit, {chance(best.p)})."
     )
 
 
