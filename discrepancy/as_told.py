@@ -10,7 +10,7 @@ from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile, every_effect, parameter_variable
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import is_direction as bounds_of_direction
-from discrepancy.scales import largest, of_axis, of_estimate, of_parameter, of_signal
+from discrepancy.scales import largest, of_axis, of_calibrated, of_estimate, of_parameter, of_signal
 from fmu_src.table import Table
 from reducers.reducer import Reducer
 
@@ -80,7 +80,7 @@ def numbers(values: Mapping[str, float], units: Mapping[str, str], tables: Seque
     found = {}
     for name, value in values.items():
         unit = units.get(name, "1")
-        scale = of_parameter(abs(value), unit)
+        scale = of_calibrated(name, abs(value), unit)
         found[told_name(name, tables)] = {"value": scale.number(value), "unit": scale.unit, "si": {"value": value, "unit": unit}}
     return found
 

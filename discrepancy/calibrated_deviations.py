@@ -7,6 +7,9 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.locked_zeros import UNFIT
+from discrepancy.scales import ZERO_OF_ANGLES
+
+AT_BOUND = "at a bound of its range, so no measurement"
 
 
 def misfit_of(base: Fit) -> float:
@@ -27,3 +30,14 @@ def unsure_text(base: Fit) -> str:
     if (misfit := misfit_of(base)) <= UNFIT:
         return ""
     return f"without +-: the model misses the data by {misfit:.2g} times the noise, and what it lacks may move these numbers by far more than noise does"
+
+
+def stands_at_bound(base: Fit, name: str) -> bool:
+    """Whether a calibrated number would go on beyond its range; zeros of angles come again after each turn of a wave."""
+    return name in base.at_bounds and not name.startswith(ZERO_OF_ANGLES)
+
+
+def doubt_of(base: Fit, name: str) -> str:
+    """What is said against a calibrated number in few words, for who reads it in a table alone; empty where nothing is."""
+    misses = f"the model misses the data by {misfit_of(base):.2g} times the noise, what it lacks may move this" if misfit_of(base) > UNFIT else ""
+    return "; ".join(filter(None, [AT_BOUND if stands_at_bound(base, name) else "", misses]))

@@ -11,7 +11,7 @@ from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.key_figures import STIFFNESS, KeyFigure
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.problem import Parameter, Record
-from discrepancy.scales import of_parameter
+from discrepancy.scales import ZERO_OF_ANGLES, of_calibrated
 from fmu_src.table import Table
 
 # The lag of the output, of the model's own, is doubted outside of these, and surely known to be off where it is clear of the others (assumed:
@@ -39,7 +39,7 @@ def calibrated_doubts(fit: Fit, tables: Sequence[Table], effects: Container[str]
         if parameter.name in effects:
             continue
         value = fit.values[parameter.name]
-        scale = of_parameter(max(abs(value), abs(parameter.off)), parameter.unit)
+        scale = of_calibrated(parameter.name, max(abs(value), abs(parameter.off)), parameter.unit)
         told = f"calibrated {told_name(parameter.name, tables)} = {scale.text(value, 3)}"
         if parameter.name == LAG_SHARE:
             # At its bound it is 0 but for what a solver leaves.
@@ -61,7 +61,7 @@ def softer_by_loops(figures: Sequence[KeyFigure]) -> float | None:
 
 def is_angle(parameter: Parameter) -> bool:
     """Whether it says where an angle counts from: such numbers come again after each turn of a wave."""
-    return parameter.name.startswith("angle_zero")
+    return parameter.name.startswith(ZERO_OF_ANGLES)
 
 
 def loads_of(records: Sequence[Record]) -> list[float | None]:
@@ -97,11 +97,10 @@ def lag_doubts(value: float, deviation: float, loads: Sequence[float | None] = (
     if value > CLEAR_LAG[1] + SURELY * deviation:
         return [f"(the model's own is 1): either the measured reducer is about {value:.2g} times as soft, which a loop of it would show, or places along the"
                 " angle are off for another reason; what is found in orders of high number rests on it"]  # fmt: skip
-    hardly = f"(the model's own is 1) is known to {deviation:.2g} only: the model's lag is fitted as {value:.2g} times what it is"
+    hardly = f"(the model's own is 1) is no result: it is known to {deviation:.2g} only"
     if len(loads) > 1:
         known = [f"{load:.4g}" for load in loads if load is not None]
-        return [f"{hardly}, and the places of the pattern at {len(loads)} loads ({', '.join(known)} N.m) say it no better beside what is not explained:"
-                " diagnose before anything is changed, for an effect that is missing moves it"
-                f" ({OF_INPUT} is for an angle that was the input's)"]  # fmt: skip
-    return [f"{hardly}, for all fitted runs of a mounting are at one load, where its zero makes up for it; runs at another load would tell the two apart"
-            f" (if one is held out, hold out another condition), and {OF_INPUT} leaves no lag, if the angle was the input's"]  # fmt: skip
+        return [f"{hardly}, from runs at {len(loads)} loads ({', '.join(known)} N.m). Diagnose before anything is changed: an effect that is missing moves it."
+                f" If the angle was the input's, state {OF_INPUT}"]  # fmt: skip
+    return [f"{hardly}, for all fitted runs of a mounting are at one load, where its zero makes up for it. Runs at another load would tell the two apart"
+            f" (if one is held out, hold out another condition). If the angle was the input's, state {OF_INPUT}: then there is no lag"]  # fmt: skip

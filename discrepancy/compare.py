@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy import as_told
-from discrepancy.calibrated_deviations import deviations_of
+from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound
 from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
@@ -35,7 +35,7 @@ from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
-from discrepancy.scales import Scale, of_parameter, shown
+from discrepancy.scales import Scale, of_calibrated, shown
 from discrepancy.standing_notes import floating_of, standing_notes
 from discrepancy.stiffest import too_soft
 from discrepancy.unstated_texts import place_texts
@@ -111,7 +111,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
     """What of the model was calibrated to the campaign before it was held against it, a line for each meaning; empty for nothing.
 
-    ``angle_zero[1] = -62.87 +- 0.02 arcmin, angle_zero[2] = 3.1 +- 0.02 arcmin: output angle of the model at the record's angle 0``: with the standard
+    ``angle_zero[1] = -1.048 +- 0.002 deg, angle_zero[2] = 0.05 +- 0.002 deg: output angle of the model at the record's angle 0``: with the standard
     deviation, where it is known, within which a calibration beside other effects finds another number.
     """
     deviations = deviations_of(base) if base else {}
@@ -119,7 +119,8 @@ def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fi
     lines: dict[str, list[str]] = {}
     for own, (name, value, scale) in zip(values, calibrated_numbers(model, values)):
         # Without one there is nothing that numbers have in common.
-        lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {with_deviation(value, deviations.get(own, 0.0), scale)}")
+        bound = f" ({AT_BOUND})" if base and stands_at_bound(base, own) else ""
+        lines.setdefault(meanings.get(own) or name, []).append(f"{name} = {with_deviation(value, deviations.get(own, 0.0), scale)}{bound}")
     known = set(meanings.values())
     return [", ".join(numbers) + (f": {meaning}" if meaning in known else "") for meaning, numbers in lines.items()]
 
@@ -129,8 +130,13 @@ def with_deviation(value: float, deviation: float, scale: Scale) -> str:
     size = abs(scale.factor) * deviation
     if not 0.0 < size < math.inf:
         return scale.text(value, 4)
-    number, unit = readable(scale.number(value), 4), "" if scale.unit == "1" else scale.unit
-    return f"{number} +- {readable(size, 2)} {unit}".rstrip()
+    told, unit = scale.number(value), "" if scale.unit == "1" else scale.unit
+    return f"{readable(told, digits_beside(told, size))} +- {readable(size, 2)} {unit}".rstrip()
+
+
+def digits_beside(value: float, deviation: float) -> int:
+    """So many digits of a value that its last is not above the first of its ``deviation``; four at least."""
+    return max(4, 1 + math.floor(math.log10(abs(value))) - math.floor(math.log10(deviation))) if value and deviation > 0.0 else 4
 
 
 def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> list[tuple[str, float, Scale]]:
@@ -141,7 +147,7 @@ def calibrated_numbers(model: PhysicalModel, values: Mapping[str, float]) -> lis
         unit, least = (known[name].unit, ROUNDING * known[name].scale) if name in known else ("1", 0.0)
         # A share at its bound is 0 but for what a solver leaves, here as in what is said against it.
         told = 0.0 if abs(value) < least else round(value, 4) if name == LAG_SHARE else value
-        found.append((as_told.told_name(name, tables), told, of_parameter(abs(told), unit)))
+        found.append((as_told.told_name(name, tables), told, of_calibrated(name, abs(told), unit)))
     return found
 
 

@@ -26,6 +26,8 @@ TEMPERATURE = 150.0
 ARCMIN, DEGREE = math.pi / 180.0 / 60.0, math.pi / 180.0
 # From here on a length is that of a part and no error of one.
 MILLIMETRE = 1e-3
+# What calibrated numbers are called that say where an angle counts from, with the mounting in brackets behind it.
+ZERO_OF_ANGLES = "angle_zero"
 # An angle is told in the next larger unit from this many on.
 MANY = 120.0
 
@@ -82,6 +84,11 @@ def of_parameter(size: float, unit: str, direction: bool = False) -> Scale:
         return Scale(1.0, unit)
     compact = quantity.to_compact()
     return Scale(float(compact.magnitude / size), f"{compact.units:~P}")
+
+
+def of_calibrated(name: str, size: float, unit: str) -> Scale:
+    """Of a number of about ``size`` (SI) that a campaign calibrates: zeros of angles in degrees, as a campaign's angles and a model file have them."""
+    return of_parameter(size, unit, name.startswith(ZERO_OF_ANGLES))
 
 
 # Axes and factors as one reads them; a speed as the campaign states it.

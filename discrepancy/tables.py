@@ -1,5 +1,6 @@
 """Results of comparison and diagnosis as tables that other programs read, in the units of a bench."""
 
+import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ import numpy as np
 
 from discrepancy.as_told import tables_of as tables_in
 from discrepancy.as_told import told_name
+from discrepancy.calibrated_deviations import deviations_of, doubt_of
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import Comparison, calibrated_numbers
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -78,8 +80,12 @@ def answer_tables(result: Answer) -> list[Table]:
 
 def calibrated_rows(model: PhysicalModel, space: Workspace) -> list[Table]:
     """What of the base model was calibrated to the campaign before it was held against it; no table for nothing."""
-    numbers = calibrated_numbers(model, space.base.values)
-    rows = [{"parameter": name, "value": scale.number(value), "unit": scale.unit} for name, value, scale in numbers]
+    deviations = deviations_of(space.base)
+    rows = [
+        {"parameter": told, "value": scale.number(value), "unit": scale.unit,
+         "standard_deviation": abs(scale.factor) * deviations.get(name, math.nan), "doubt": doubt_of(space.base, name)}
+        for name, (told, value, scale) in zip(space.base.values, calibrated_numbers(model, space.base.values))
+    ]  # fmt: skip
     return [rows_table("calibrated", rows, {})] if rows else []
 
 

@@ -60,6 +60,10 @@ def percent(answer: Answer, share: float) -> str:
     return percent_of_misfit(share)
 
 
+# A share goes with squares: a signal of 90 times its noise has 99 % beside one of 2.5 times its noise with ten times its samples.
+SHARE = "of the squares of all that is significantly off, in times of the noise, all samples of all signals together"
+
+
 def percent_of_misfit(share: float) -> str:
     """What is significant is not nothing, however little of all misfit it is."""
     return "< 1 %" if share < 0.005 else f"{100.0 * share:.0f} %"

@@ -34,7 +34,7 @@ def test_a_lag_that_hardly_lags_is_told_with_the_line_that_says_whose_angle_it_w
 @pytest.mark.parametrize("value, deviation", [(10.2, 6.0), (0.02, 1.0)])
 def test_of_a_lag_that_is_hardly_known_another_load_is_asked_for(value, deviation):
     (text,) = doubts(value, deviation=deviation)
-    assert f"fitted as {value:.2g} times what it is" in text and f"known to {deviation:.2g} only" in text and "another load would tell the two apart" in text
+    assert f"= {value:.3g} (the model's own is 1) is no result" in text and f"known to {deviation:.2g} only" in text and "another load would tell the two apart" in text
     assert not doubts(2.4, deviation=deviation)
 
 
@@ -117,17 +117,17 @@ def test_where_the_model_misses_the_data_no_deviation_is_told():
     """"lag_share = 1.271e-05 +- 0.063" stood there above "is known to 1.2 only", and with the missing effect it was 1.017."""
     from types import SimpleNamespace
 
-    from discrepancy.calibrated_deviations import unsure_text
+    from discrepancy.calibrated_deviations import AT_BOUND, unsure_text
     from discrepancy.compare import calibrated_texts
     from discrepancy.problem import Parameter
 
     lag = Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3)
     model = SimpleNamespace(nuisances=(lag,))
     fits, near, misses = (fit_of([lag], {"lag_share": 1.271e-5}, np.full(2, left), np.full((2, 1), 20.0)) for left in (0.0, 1.3, 20.0))
-    assert calibrated_texts(model, fits.values, misses) == ["lag_share = 0"] and unsure_text(misses).startswith("without +-: the model misses the data by 20 times")
-    assert calibrated_texts(model, fits.values, fits) == ["lag_share = 0 +- 0.035"] and unsure_text(fits) == ""
+    assert calibrated_texts(model, fits.values, misses) == [f"lag_share = 0 ({AT_BOUND})"] and unsure_text(misses).startswith("without +-: the model misses the data by 20 times")
+    assert calibrated_texts(model, fits.values, fits) == [f"lag_share = 0 +- 0.035 ({AT_BOUND})"] and unsure_text(fits) == ""
     # What is left a little above the noise widens it, as in the doubts.
-    assert calibrated_texts(model, fits.values, near) == ["lag_share = 0 +- 0.046"]
+    assert calibrated_texts(model, fits.values, near) == [f"lag_share = 0 +- 0.046 ({AT_BOUND})"]
 
 
 def test_what_was_calibrated_is_told_with_its_meaning():
@@ -141,7 +141,7 @@ def test_what_was_calibrated_is_told_with_its_meaning():
     zeros = [Parameter(f"angle_zero[{k}]", "rad", 0.0, -1.0, 1.0, 1e-5, description=angle) for k in (1, 2)]
     model = SimpleNamespace(nuisances=(*zeros, Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3, description="lag of the output")))
     assert calibrated_texts(model, {"angle_zero[1]": -0.0160101, "lag_share": 1.00309, "angle_zero[2]": 1e-3, "own": 2.0}) == [
-        f"angle_zero[1] = -55.04 arcmin, angle_zero[2] = 3.438 arcmin: {angle}", "lag_share = 1.003: lag of the output", "own = 2",
+        f"angle_zero[1] = -0.9173 deg, angle_zero[2] = 0.0573 deg: {angle}", "lag_share = 1.003: lag of the output", "own = 2",
     ]
 
 
@@ -155,3 +155,52 @@ def test_a_softness_that_loops_contradict_is_none():
     for softer in (5.0, None):
         [text] = lag_doubts(6.354, 0.01, softer=softer)
         assert "about 6.4 times as soft" in text
+
+
+def test_a_number_at_its_bound_is_doubted_wherever_it_is_told():
+    """``lag_share,0.0`` stood in a table that other programs read, and "lag_share = 0" on the screen, as if it had been measured."""
+    from types import SimpleNamespace
+
+    from discrepancy.calibrated_deviations import AT_BOUND, doubt_of
+    from discrepancy.compare import calibrated_texts
+    from discrepancy.tables import calibrated_rows
+    from workbench.look import calibrated
+
+    numbers = (Parameter("angle_zero[1]", "rad", 0.0, -1.0, 1.0, 1e-5), Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3))
+    model = SimpleNamespace(nuisances=numbers)
+
+    def fit(share, left):
+        return fit_of(numbers, {"angle_zero[1]": 0.02736, "lag_share": share}, np.full(2, left), np.array([[5e3, 0.0], [0.0, 20.0]]))
+
+    at_bound, sure = fit(1e-9, 21.0), fit(1.02, 0.0)
+    assert calibrated_texts(model, at_bound.values, at_bound) == ["angle_zero[1] = 1.568 deg", f"lag_share = 0 ({AT_BOUND})"]
+    (table,) = calibrated_rows(model, SimpleNamespace(base=at_bound))
+    told = {column.name: list(column.values) for column in table.columns}
+    assert told["unit"] == ["deg", "1"] and told["doubt"][1].startswith(AT_BOUND) and "misses the data by 21 times the noise" in told["doubt"][0]
+    assert np.isnan(told["standard_deviation"]).all()
+    assert doubt_of(sure, "lag_share") == "" and calibrated_texts(model, sure.values, sure)[1] == "lag_share = 1.02 +- 0.05"
+    shown = calibrated(SimpleNamespace(model=model, nuisances=at_bound.values, diagnostician=SimpleNamespace(space=SimpleNamespace(base=at_bound))))
+    assert [row["meaning"] for row in shown] == ["", AT_BOUND]
+
+
+def test_a_zero_of_angles_has_one_unit_wherever_it_is_told():
+    """94 arcmin in the base model, 5.7 deg in the extended one."""
+    from discrepancy import as_told
+
+    told = [as_told.numbers({"angle_zero[1]": value, "other": value}, {"angle_zero[1]": "rad", "other": "rad"}, ()) for value in (0.02736, 0.0995)]
+    assert [entry["angle_zero[1]"]["unit"] for entry in told] == ["deg", "deg"] and told[0]["other"]["unit"] == "arcmin"
+    assert told[0]["angle_zero[1]"]["value"] == pytest.approx(1.5676, abs=1e-4)
+
+
+def test_a_zero_has_the_digits_that_its_deviation_leaves():
+    """In degrees four digits are fewer arc minutes than they were."""
+    from discrepancy.compare import digits_beside
+
+    assert [digits_beside(1.5677, 0.0003), digits_beside(5.702, 0.002), digits_beside(0.9991, 0.044), digits_beside(0.0, 0.1), digits_beside(3.0, 0.0)] == [5, 4, 4, 4, 4]
+
+
+def test_a_lag_that_says_nothing_is_told_in_short_sentences():
+    """One sentence had 80 words."""
+    (text,) = doubts(0.0, deviation=1.3, records=[run(50.0), run(100.0), run(150.0)])
+    sentences = text.replace("N.m", "N m").replace("campaign.toml", "campaign file").split(". ")
+    assert len(sentences) == 3 and max(len(sentence.split()) for sentence in sentences) < 35 and "no result" in sentences[0]

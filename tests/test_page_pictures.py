@@ -36,7 +36,7 @@ def test_band_of_a_loop_covers_both_ways():
 
 
 def test_a_map_of_one_column_is_a_table():
-    places = [{"signal": "hysteresis", "feature": f, "dependence": "everywhere", "p": p, "share": 0.5, "statistic": 9.0, "width": 1, "dof": 40.0}
+    places = [{"signal": "hysteresis", "feature": f, "dependence": "everywhere", "p": p, "share": 0.5, "statistic": 9.0, "chi_square": 9.0, "width": 1, "dof": 40.0}
               for f, p in (("mean", 0.5), ("along torque", 1e-9))]  # fmt: skip
     figures, tables = maps.localisation("place", places, 1e-3)
     assert not figures and tables[0].title == "Misfit at all conditions alike"

@@ -48,7 +48,7 @@ def test_of_several_signals_it_is_said_of_what_a_share_is(capsys):
     for groups, said in (([loop], False), ([loop, error], True)):
         shows.show_localisation(Localisation(groups, {}, 0.01))
         shown = " ".join(capsys.readouterr().out.split())
-        assert "of all misfit" in shown and ("chi-square of all signals together" in shown) == said
+        assert "of all misfit" in shown and ("in times of the noise" in shown) == said
 
 
 def test_what_separates_stands_before_what_shows_a_law(capsys):

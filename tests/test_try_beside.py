@@ -16,8 +16,9 @@ from discrepancy.remembered import place_of, write
 from discrepancy.verdict import diagnose
 from workbench.beside import Known, fewer
 from workbench.folder import Folder
+from workbench.own_zero import as_in_look
 from workbench.thinned import thinned
-from workbench.trying import Trial
+from workbench.trying import Trial, error_of
 
 SUITS = "angles count from where what is tried fits best; phases of cages are those of the model without"
 WITHOUT, BESIDE = "zero and phases are those of the model without what is tried", "zero and phases are those that the diagnosis found beside"
@@ -87,3 +88,24 @@ def test_of_a_large_effect_nothing_is_left_that_a_rough_look_would(folder, cache
         if row["signal"] == "transmission_error":
             exact = tried(trial, folder, "at_160_1", HIDDEN)["rms"][1]
             assert float(row["after"].split()[0]) < 1.5 * exact
+
+
+def test_why_an_error_is_another_one_than_in_look_stands_beside_it(cache, tmp_path):
+    """1.00 arcsec in Look and 0.689 in Try, of one model and one campaign: nothing beside either said what differs."""
+    (tmp_path / "look").mkdir()
+    own = Folder(written(tmp_path / "look", {}, loop=True))
+    trial = Trial()
+    zero = trial.opened(own, REDUCER).model.zeros[ZERO] + 2e-3
+    at_look = {run: tried(trial, own, run, {}) for run in ("at_160_1", "loop")}
+    # Without a comparison of this model there is no other number.
+    assert not any(told["look"] for told in at_look.values())
+    own.remember("jobs/compare/result", {"model": REDUCER, "nuisances": {ZERO: zero}})
+    told = tried(trial, own, "at_160_1", {})
+    beside = trial.opened(own, REDUCER)
+    [record] = [r for r in beside.model.records if r.name == "at_160_1"]
+    in_common = error_of(record, beside.model.one(record, beside.standing)) * 180.0 * 3600.0 / math.pi
+    assert told["rms"][0] < 0.9 * in_common and told["look"].startswith(f"{in_common:.3g} arcsec at the one zero and lag that Look has for all runs")
+    assert "deg to its own" in told["look"] and not tried(trial, own, "loop", {})["look"]
+    rows = {row["signal"].partition("[")[0]: row for row in trial.everywhere(own, REDUCER, HIDDEN)}
+    assert "arcsec" in rows["transmission_error"]["look"] and rows["transmission_error"]["look"].startswith("fitted ") and not rows["hysteresis"]["look"]
+    assert as_in_look(0.6901, 0.69, "arcsec", 1e-5) == ""

@@ -12,7 +12,8 @@ from pages.content import Card, Page, Section, Table, Why
 from pages.render import rendered_sections
 
 FIGURE = KeyFigure("hysteresis[locked=input]", "20 degC", "torsional stiffness", "N.m/rad", 1.7e5, 1.5e5, 4e3, 3, True)
-PLACE = {"signal": "hysteresis", "feature": "branch of torque", "dependence": "everywhere", "statistic": 80.0, "width": 3, "dof": 40.0, "p": 1e-9, "share": 1.0}
+PLACE = {"signal": "hysteresis", "feature": "branch of torque", "dependence": "everywhere", "statistic": 80.0, "width": 3, "dof": 40.0, "p": 1e-9, "share": 1.0,
+         "chi_square": 80.0}  # fmt: skip
 
 
 def test_a_page_asks_beside_cards_and_rows_without_script():
@@ -48,4 +49,4 @@ def test_a_step_of_the_ladder_says_what_it_was_judged_on():
 def test_what_is_significant_stands_in_a_table_beside_the_map():
     varied = [PLACE, PLACE | {"dependence": "load", "p": 0.5}]
     (table,) = localisation("place", varied, 0.004)[1]
-    assert table.rows == [["hysteresis", "branch of torque", "100 %", "p = 1e-09", "yes"]] and "80.0 of chi-square in 3 dimensions" in table.whys[0].data
+    assert table.rows == [["hysteresis", "branch of torque", "100 %", "p = 1e-09", "yes"]] and "80.0 of chi-square, in 3 dimensions" in table.whys[0].data

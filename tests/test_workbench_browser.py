@@ -83,6 +83,22 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
     assert all(len(parts) > 1 and over <= 0 for parts, over in lines)
 
 
+def test_on_a_telephone_how_far_a_figure_is_off_has_its_name(bench):
+    """97.9 stood alone below a torsional stiffness: the head of its column is gone there."""
+    page = bench.page
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    heads = page.evaluate("""async () => {
+      const { keyFigures } = await import('./static/look_parts.js');
+      const figure = { signal: 's', title: 'hysteresis', condition: 'c', name: 'torsional stiffness', unit: 'N·m/arcmin', measured: '44.661', noise: '0.054', model: '49.976', off: 97.9, runs: 2, repeated: true, why: null };
+      const result = { figures: [figure], calibrated: [] };
+      document.getElementById('view').replaceChildren(keyFigures({ result, all: true, text: '', matches: () => true, search: null, showAll: null }));
+      return [...document.querySelectorAll('table.stack td')].slice(3, 7).map((cell) => getComputedStyle(cell, '::before').content);
+    }""")
+    assert heads == ['"measured "', '"noise "', '"model "', '"off, in noise "'], heads
+
+
 def test_what_is_at_work_is_told_step_by_step_and_how_long_in_all(bench):
     """Adding an effect took minutes without a word; a diagnosis told of its step alone."""
     folder = opened(bench.folder)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.calibrated_deviations import deviations_of, unsure_text
+from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
@@ -62,7 +62,7 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
         "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
-        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.findings],
+        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()
@@ -70,9 +70,11 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
 
 def calibrated(result: Comparison) -> list[dict[str, str]]:
     """Calibrated numbers as `compare` tells them, with how sure they are where that is known."""
-    meanings, deviations = {p.name: p.description for p in result.model.nuisances}, deviations_of(result.diagnostician.space.base)
+    base = result.diagnostician.space.base
+    meanings, deviations = {p.name: p.description for p in result.model.nuisances}, deviations_of(base)
     return [
-        {"name": told, "value": with_deviation(value, deviations.get(name, 0.0), scale).replace("+-", "±"), "meaning": meanings.get(name, "")}
+        {"name": told, "value": with_deviation(value, deviations.get(name, 0.0), scale).replace("+-", "±"),
+         "meaning": "; ".join(filter(None, [meanings.get(name, ""), AT_BOUND if stands_at_bound(base, name) else ""]))}
         for name, (told, value, scale) in zip(result.nuisances, calibrated_numbers(result.model, result.nuisances))
     ]
 

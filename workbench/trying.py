@@ -2,7 +2,7 @@
 
 import math
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -23,7 +23,7 @@ from fmu_src.faults import InputFault
 from workbench.beside import Beside
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
-from workbench.own_zero import at_own_zero
+from workbench.own_zero import ALIKE, as_in_look, at_own_zero, moved
 from workbench.thinned import thinned
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
@@ -62,6 +62,10 @@ class Trial:
         known = last.get("nuisances", {}) if last.get("model") == model else {}
         return found.standing() | {name: float(known[name]) for name in known if name in {p.name for p in found.nuisances}}
 
+    def compared(self, folder: Folder, model: str) -> bool:
+        """Whether Look shows errors of this model."""
+        return bool(folder.recall("jobs/compare/result").get("model") == model)
+
     def controls(self, folder: Folder, model: str) -> dict[str, Any]:
         """Every effect with its parameters as sliders, and the runs that can be looked at."""
         with self.lock:
@@ -98,7 +102,8 @@ class Trial:
             found = beside_it.model
             record = run_of(found, run)
             own, standing = checked_values(found, values), beside_it.standing
-            base = own_curve(found, record, standing)
+            in_common = found.one(record, standing)
+            base, by = moved(record, in_common, found.nuisances)
             tried = own_curve(found, record, {**standing, **beside_it.calibrated(own, roughly), **own}, roughly) if own else base
             other = base
             if beside and beside != model:
@@ -119,6 +124,7 @@ class Trial:
                 "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
                 "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
                 "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
+                "look": as_in_look(error_of(record, in_common) * factor, error_of(record, base) * factor, unit, by) if self.compared(folder, model) else "",
             }  # fmt: skip
             return words, np.array([x, *(factor * curve for curve in curves)])
 
@@ -130,9 +136,10 @@ class Trial:
         with self.lock:
             beside = self.opened(folder, model)
             found = beside.model
-            own, standing = checked_values(found, values), beside.standing
+            own, standing, compared = checked_values(found, values), beside.standing, self.compared(folder, model)
             calibrated = {**standing, **beside.calibrated(own)}
             cells: dict[str, list[tuple[float, float, float]]] = {}
+            in_common: dict[str, dict[str, list[float]]] = {}
             units: dict[str, str] = {}
             seen = set()
             for record in found.records:
@@ -141,15 +148,20 @@ class Trial:
                     continue
                 seen.add(key)
                 roughly = is_worn(record)
-                base, tried = own_curve(found, record, standing, roughly), own_curve(found, record, calibrated | own, roughly)
+                plain = found.one(record, standing, rough=roughly)
+                base, tried = at_own_zero(record, plain, found.nuisances), own_curve(found, record, calibrated | own, roughly)
+                in_common.setdefault(key[0], {}).setdefault("held out" if record.held_out else "fitted", []).append(error_of(record, plain))
                 units[key[0]] = record.unit
                 cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
         rows = []
         for signal, entries in cells.items():
-            change, before, after = (math.sqrt(float(np.mean(np.square(column)))) for column in zip(*entries))
+            change, before, after = map(mean_of, zip(*entries))
+            every = mean_of([error for errors in in_common[signal].values() for error in errors])
+            of_look = ", ".join(f"{kind} {amounts.text(mean_of(errors), units[signal], signal)}" for kind, errors in sorted(in_common[signal].items()))
             shown = [amounts.text(v, units[signal], signal) for v in (change, before, after)]
             rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
-                         "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300)})  # fmt: skip
+                         "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300),
+                         "look": of_look if compared and abs(every - before) > ALIKE * before else ""})  # fmt: skip
         return rows
 
 
@@ -178,6 +190,11 @@ def error_of(record: Record, predicted: Floats) -> float:
 def rms(values: Floats) -> float:
     kept = values[np.isfinite(values)]
     return float(np.sqrt(np.mean(kept**2))) if kept.size else 0.0
+
+
+def mean_of(errors: Sequence[float]) -> float:
+    """Root mean square of root mean squares."""
+    return math.sqrt(float(np.mean(np.square(errors))))
 
 
 def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:

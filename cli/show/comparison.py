@@ -31,6 +31,7 @@ from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
+    SHARE,
     base_texts,
     error_text,
     fitted_together,
@@ -49,11 +50,6 @@ from discrepancy.wording import (
 LONGEST = 12
 # Figures further off than so many times the noise need no decimals.
 WHOLE = 100.0
-# A loop of 446 times its noise has 1 %, beside transmission errors of many samples.
-OF_ALL = (
-    "of all misfit: of the chi-square of all signals together, in which every sample counts;"
-    " how far off each signal is, error/noise of `rvwear compare` says"
-)
 
 
 def show_warnings(out: Console, warnings: list[str]) -> None:
@@ -134,7 +130,7 @@ def figure_row(f: KeyFigure, after: KeyFigure | None) -> tuple[str, ...]:
 def show_localisation(localisation: Localisation, out: Console | None = None) -> None:
     """Where the misfit is; all tests together at the stated level."""
     out = out or console(WIDTH)
-    findings = localisation.findings
+    findings = localisation.largest
     if not findings:
         out.print("no place, order or dependence carries a significant misfit")
         return
@@ -147,7 +143,7 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
     if len(findings) > LONGEST:
         out.print(f"and {len(findings) - LONGEST} more: --json lists all")
     if len({g.signal for g in localisation.groups}) > 1:
-        out.print(OF_ALL)
+        out.print(f"of all misfit: {SHARE}")
 
 
 def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:

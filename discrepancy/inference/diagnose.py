@@ -245,7 +245,7 @@ class Diagnostician:
 
     def say_place(self) -> None:
         """Where the misfit is, as soon as it is known."""
-        found = self.localisation.findings
+        found = self.localisation.largest
         if not found:
             say("no place, order or dependence carries a significant misfit")
             return

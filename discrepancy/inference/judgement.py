@@ -75,7 +75,7 @@ class Judgement:
         failing = {k: v for k, v in shape.items() if v[2] < self.level}
         size = max(sum(worst.values()), max((s - w for s, w, _ in failing.values()), default=0.0))
         inflation = max([inflation, *(s / w for s, w, _ in failing.values())])
-        text: dict[str, Any] = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.findings],
+        text: dict[str, Any] = {"findings": [{"signal": g.signal, "feature": g.feature, "dependence": g.dependence, "p": g.p} for g in local.largest],
                 "dependence": {k: {"statistic": s, "width": w, "p": p} for k, (s, w, p) in shape.items()}}
         return bool(worst or failing), size, text, inflation
 

@@ -3,8 +3,8 @@
 from dataclasses import asdict, replace
 from typing import Any
 
-from discrepancy.calibrated_deviations import deviations_of, unsure_text
-from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers
+from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
+from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
@@ -14,6 +14,7 @@ from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis
 from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
+from discrepancy.wording import percent_of_misfit
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure
@@ -61,17 +62,18 @@ def title(result: Comparison | Answer) -> str:
 
 def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     """How much was measured, and what the model carries."""
-    held = sum(run.record.held_out for run in runs)
+    held = [run.record for run in runs if run.record.held_out]
+    of_them = f"{counted(len(held), 'run')} at {counted(len({record.condition for record in held}), 'condition')}" if held else "none"
     count = len({run.record.condition for run in runs})
     effects = ", ".join(map(effect_words, result.model.file.effects))
-    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}, {held} of them held out; " + (
+    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}; held out: {of_them}; " + (
         f"model with {effects}" if effects else "model without further effects"
     )
 
 
 def finding(result: Comparison) -> str:
-    """Worst signal, and whether the localisation finds anything."""
-    found = result.diagnostician.localisation.findings
+    """Worst signal, and what of it is off most, as far as the localisation finds anything."""
+    found = result.diagnostician.localisation.largest
     worst = max(result.signals, key=lambda s: s["ratio"], default=None)
     if worst is None:
         return "Nothing that was measured can be predicted by this model."
@@ -82,11 +84,12 @@ def finding(result: Comparison) -> str:
     )
     if not found:
         return start + " No place, order or dependence carries a significant misfit."
-    best = found[0]
+    best = next((g for g in found if g.signal == worst["signal"]), found[0])
     where = "at all conditions alike" if best.dependence == "everywhere" else f"changing with {best.dependence.replace('_', ' ')}"
     return (
         start
-        + f" The misfit is most significant in {amounts.signal_title(best.signal)}: {best.feature}, {where} ({chance(best.p)})."
+        + f" What is off most in {amounts.signal_title(best.signal)}: {best.feature}, {where}"
+        f" ({percent_of_misfit(best.share)} of all misfit, {chance(best.p)})."
     )
 
 
@@ -227,8 +230,9 @@ def nuisances(result: Comparison) -> Section:
         parameter = known.get(name)
         prior = f"{number(scale.number(parameter.off))} ± {number(scale.factor * parameter.prior)}" if parameter and parameter.prior else ""
         size = abs(scale.factor) * deviations.get(name, 0.0)
-        sure = f"{number(scale.number(value), 4)}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
-        rows.append([told, sure, amounts.pretty(scale.unit), prior, parameter.description if parameter else ""])
+        sure = f"{number(scale.number(value), digits_beside(scale.number(value), size))}{f' ± {number(size, 2)}' if size > 0.0 else ''}"
+        doubt = AT_BOUND if stands_at_bound(base, name) else ""
+        rows.append([told, sure, amounts.pretty(scale.unit), prior, "; ".join(filter(None, [parameter.description if parameter else "", doubt]))])
     lead = (
         f"Fitted to the campaign before anything was compared; {unsure_text(base).replace('+-', '±') or '± is the standard deviation that noise leaves'}."
         if rows

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from discrepancy.inference.chance import chance
 from discrepancy.page.amounts import signal_title
 from discrepancy.page.runs import slug
-from discrepancy.page.whys import of_place
-from discrepancy.wording import percent_of_misfit
+from discrepancy.page.whys import amount, of_place
+from discrepancy.wording import SHARE, percent_of_misfit
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short
@@ -115,8 +115,8 @@ def localisation(prefix: str, places: Sequence[Mapping[str, Any]], level: float)
 
 
 def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
-    """Features, most significant first."""
-    shown = sorted(places, key=lambda p: p["p"])[:MOST_ROWS]
+    """Features, those first that carry most of the misfit, then the others by their significance."""
+    shown = sorted(places, key=lambda p: (-p["share"], p["p"]))[:MOST_ROWS]
     alike = len({p["dependence"] for p in places}) == 1
     rows = [
         [signal_title(p["signal"]), told_feature(p, alike), percent_of_misfit(p["share"]) if p["p"] <= level else "", chance(p["p"]),
@@ -159,7 +159,7 @@ def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) ->
     caption = (
         "Left column: alike at all conditions, right of it: changing with a factor. Colour: p over all tests "
         f"together; grey is tested and not significant at {level:g} ({found} of {len(places)} are). Numbers:"
-        " share of the significant chi-square of all signals together, in which every sample counts (how far off a signal is, its error over noise says);"
+        f" share {SHARE};"
         " features overlap, so shares need not add to 100 %."
     )
     caption += f" {dropped} rows without findings are left out." if dropped else ""
@@ -175,7 +175,7 @@ def described(place: Mapping[str, Any] | None, level: float) -> str:
     if place is None:
         return "not tested"
     verdict = f"{percent_of_misfit(place['share'])} of all misfit" if place["p"] <= level else "not significant"
-    return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {place['statistic']:.1f} against {place['width']} expected"
+    return f"{place['feature']}, {place['dependence']}: {verdict}<br>{chance(place['p'])}, {amount(place)}, {place['width']} expected"
 
 
 def comb(prefix: str, signal: str, places: Sequence[Mapping[str, Any]], level: float) -> Figure:

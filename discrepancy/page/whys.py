@@ -55,11 +55,17 @@ def of_key_figure(f: KeyFigure) -> Why:
     )
 
 
+def amount(p: Mapping[str, Any]) -> str:
+    """How much of chi-square is along a function, and as how much it is tested in a signal that is off all over, where that is less."""
+    tested = f", tested as {number(p['statistic'])} as its signal is off all over" if p["statistic"] < 0.99 * p["chi_square"] else ""
+    return f"{number(p['chi_square'])} of chi-square{tested}"
+
+
 def of_place(p: dict[str, Any], level: float) -> Why:
     """A finding of where the model fails."""
     return Why(
         "part of the misfit along this function, r'G (G'G)⁺ G'r, nuisances taken out, against an F law of the noise",
-        f"{number(p['statistic'])} of chi-square in {p['width']} dimensions, where noise leaves {p['width']}; noise known to {p['dof']:.0f} degrees of freedom",
+        f"{amount(p)}, in {p['width']} dimensions, where noise leaves {p['width']}; noise known to {p['dof']:.0f} degrees of freedom",
         f"{chance(p['p'])} over all tests together (Holm); significant below {level:g}",
     )
 

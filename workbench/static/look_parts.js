@@ -178,7 +178,7 @@ export const fails = (result, context) =>
         "section",
         {},
         h("h2", {}, "Where the model fails"),
-        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together. The share is of the chi-square of all signals together, in which every sample counts: how far off each signal is stands above, in times of its noise."),
+        h("p", { class: "quiet small" }, "Significant against the noise of repetitions, over all tests together. The share is of the squares of all that is significantly off, in times of the noise, all samples of all signals together."),
         h(
           "div",
           { class: "panel" },

@@ -30,7 +30,10 @@ HANDFUL = 4_000_000
 
 @dataclass(frozen=True)
 class Group:
-    """Result of one group.  ``share``: part of the whole significant misfit; ``p`` corrected for multiplicity."""
+    """Result of one group.  ``p`` is corrected for multiplicity; ``statistic`` is in units of what a fit leaves all over its signal, as tests need it.
+
+    ``chi_square`` is in units of the noise alone; ``share``: its part of the whole significant misfit.
+    """
 
     signal: str
     feature: str
@@ -41,6 +44,7 @@ class Group:
     p_single: float
     p: float
     share: float = 0.0
+    chi_square: float = 0.0
     indices: tuple[int, ...] = field(default=(), repr=False)
 
 
@@ -57,9 +61,9 @@ class Localisation:
         return sorted((g for g in self.groups if g.p <= self.level), key=lambda g: (g.p_single, -g.statistic))
 
     @property
-    def excess(self) -> float:
-        """Chi-square in the significant groups that is more than noise, counted without overlap as far as groups are orthogonal."""
-        return sum(max(g.statistic - g.width, 0.0) for g in self.findings)
+    def largest(self) -> list[Group]:
+        """The significant ones, largest share of the misfit first: what is told."""
+        return sorted(self.findings, key=lambda g: -g.share)
 
     def to_dict(self) -> dict[str, Any]:
         def plain(g: Group) -> dict[str, Any]:
@@ -67,7 +71,7 @@ class Localisation:
             entry.pop("indices")
             return entry
         rows = [g for g in self.groups if not g.feature.startswith("order ") or g.p <= self.level]
-        return {"findings": [plain(g) for g in self.findings], "map": [plain(g) for g in rows],
+        return {"findings": [plain(g) for g in self.largest], "map": [plain(g) for g in rows],
                 "conditions": self.conditions, "level": self.level}
 
 
@@ -121,8 +125,9 @@ class Localiser:
                     if group is not None:
                         groups.append(group)
         groups = _holm(groups)
-        whole = sum(max(g.statistic - g.width, 0.0) for g in groups if g.p <= level)
-        groups = [replace(g, share=max(g.statistic - g.width, 0.0) / whole if whole and g.p <= level else 0.0) for g in groups]
+        # What is really off: a signal that is off all over has a small statistic and a large misfit.
+        whole = sum(max(g.chi_square - g.width, 0.0) for g in groups if g.p <= level)
+        groups = [replace(g, share=max(g.chi_square - g.width, 0.0) / whole if whole and g.p <= level else 0.0) for g in groups]
         return Localisation(groups, self._conditions(scores), level)
 
     def _group(
@@ -150,7 +155,7 @@ class Localiser:
         keep = values > 1e-6 * values.max()
         root = np.zeros((int(keep.sum()), width))
         root[:, alive] = (vectors[:, keep] / np.sqrt(values[keep])).T / size
-        statistic = float(np.sum((root[:, alive] @ score) ** 2))
+        chi_square = float(np.sum((root[:, alive] @ score) ** 2))
         rank = root.shape[0]
         # functions of this group, record by record, in the coordinates of the test
         maps = np.einsum("kia,ri->rka", root.reshape(rank, m, common), basis)
@@ -167,8 +172,9 @@ class Localiser:
                     shares[component] += float(amount)
             shares[(whitener.quantity, "main")] += main
         dof = effective_dof(self.space, shares)
-        statistic /= mean_excess(self.factors, shares)
-        return Group(stream, feature, dependence, statistic, rank, dof, float(fdtrc(rank, dof, statistic / rank)), 1.0, 0.0, tuple(indices))
+        statistic = chi_square / mean_excess(self.factors, shares)
+        single = float(fdtrc(rank, dof, statistic / rank))
+        return Group(stream, feature, dependence, statistic, rank, dof, single, 1.0, chi_square=chi_square, indices=tuple(indices))
 
     def _conditions(self, scores: Mapping[int, Floats]) -> dict[str, dict[str, float]]:
         """Misfit of each condition and signal in standard deviations of the mean feature, for drawing."""
