@@ -15,23 +15,23 @@ from rv_plant.topology import Topology
 OF_RING = "pin_ring_"
 # Why it stays open at which of two places an error is.
 BY_SYMMETRY = (
-    "no run of the reducer as a whole tells which of both it is, for turned by half a turn it looks as it does; measure the ring itself at these places"
+    "no run of the reducer as a whole tells which of the two it is, for turned by half a turn it looks as it does; measure the ring itself at these places"
 )
-THESE_RUNS = "the runs that were fitted do not tell which of both it is"
+THESE_RUNS = "the runs that were fitted do not tell which of the two it is"
 
 
-def seen_from_crank(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float], pins: int) -> list[dict[str, Any]]:
-    """The effects, each direction with all places where it may be: ``alike`` is one that shows the same, and round the ring pin 1 may be any of the ``pins``,
+def seen_from_crank(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float], file: ModelFile) -> list[dict[str, Any]]:
+    """The effects, each direction with all places where it may be: ``alike`` is one that shows the same, and round the ring pin 1 may be any of its pins,
     so that what can be carried to the part counts from crank 1 at the encoder's zero."""
 
     def told(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
-        places = places_text(name, entry, zeros_in(values), pins)
+        places = places_text(name, entry, zeros_in(values), file)
         return {**entry, "meaning": "; ".join(filter(None, (entry.get("meaning"), places)))} if places else dict(entry)
 
     return [{**effect, "parameters": {name: told(name, entry) for name, entry in effect["parameters"].items()}} for effect in effects]
 
 
-def places_text(name: str, entry: Mapping[str, Any], zeros: Mapping[str, float], pins: int) -> str:
+def places_text(name: str, entry: Mapping[str, Any], zeros: Mapping[str, float], file: ModelFile) -> str:
     """``it is in one of 2 places, which show the same: 10.61 or 70.61 deg from crank 1 where mounting 1 shows angle 0, the way the output turns; ...``; empty
     where the number alone says where it is, or is no direction."""
     if not entry.get("direction"):
@@ -40,6 +40,7 @@ def places_text(name: str, entry: Mapping[str, Any], zeros: Mapping[str, float],
     start = f"it is in one of {len(places)} places, which show the same: " if len(places) > 1 else ""
     if zeros and name.startswith(OF_RING):
         seen = ", ".join(f"{angles_text(places, zero)} from crank 1 where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())
+        pins = file.reducer.topology.pins
         return f"{start}{seen}, the way the output turns; that is {angles_text(places)} from pin 1, and any of the {pins} pins may be pin 1"
     return f"{start}{angles_text(places)}" if start else ""
 
@@ -52,13 +53,13 @@ def angles_text(places: Sequence[float], zero: float = 0.0) -> str:
 def either_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float], file: ModelFile, more: bool) -> list[str]:
     """Of effects of which a value and another one, ``alike``, show the same: that it is open which, and whether any run can tell; ``more`` if others act
     beside them, which may tell."""
-    t, texts = file.reducer.topology, []
+    texts = []
     for effect in effects:
         for name, entry in effect["parameters"].items():
             if "alike" not in entry or not entry.get("direction"):
                 continue
-            places = places_text(name, entry, zeros_in(values), t.pins)
-            why = BY_SYMMETRY if by_symmetry(name, t, more) else THESE_RUNS
+            places = places_text(name, entry, zeros_in(values), file)
+            why = BY_SYMMETRY if by_symmetry(name, file.reducer.topology, more) else THESE_RUNS
             texts.append(f"{told_name(name, tables_of(file))}: {places}; {why}")
         if any("alike" in entry and not entry.get("direction") for entry in effect["parameters"].values()):
             texts.append(f"{effect['candidates'][0]}: {OTHER_WAY}")

@@ -186,7 +186,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
-    effects = seen_from_crank(with_others(effects, found), fit.values, model.file.reducer.topology.pins)
+    effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
     doubts += ring_texts(effects, fit.values, model.file)
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     untold += either_texts(effects, fit.values, model.file, bool(model.file.effects) or verdict == SEVERAL)

@@ -40,7 +40,7 @@ def weighed(answer: "Answer", campaign: Campaign, rivals: Sequence[RivalLaw]) ->
 
 def telling_either(answer: "Answer", campaign: Campaign) -> list[str]:
     """Of numbers that are named, or stand in the model file, and of which another value shows the same in the runs so far: the cheapest run that tells which
-    of both it is, or that none does; nothing of those that no run can tell."""
+    of the two it is, or that none does; nothing of those that no run can tell."""
     texts = []
     for told, there in either_of(answer):
         here = law_of(answer)
@@ -61,7 +61,7 @@ def either_of(answer: "Answer") -> list[tuple[str, dict[str, float]]]:
     for effect, entries in [*named, *file.effects.items()]:
         others = {name: entry["alike"] for name, entry in entries.items() if "alike" in entry}
         turned = [name for name in others if is_direction(effect, name)]
-        found += [(f"which of both {effect_name(effect, name)} is", {name: others[name]})
+        found += [(f"which of the two {effect_name(effect, name)} is", {name: others[name]})
                   for name in turned if not by_symmetry(name, file.reducer.topology, more)]  # fmt: skip
         if signs := {name: other for name, other in others.items() if name not in turned}:
             found.append((f"which way {effect_words(effect)} {'go' if effect.endswith('s') else 'goes'}", signs))
