@@ -60,6 +60,8 @@ def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
     low, high = relied_on(entry)
     scale = of_estimate(entry)
     told = {"value": scale.number(entry["value"]), "interval": [scale.number(low), scale.number(high)], "unit": scale.unit}
+    if "alike" in entry:
+        told["alike"] = scale.number(entry["alike"])
     if "standard_deviation" in entry:
         told["standard_deviation"] = abs(scale.factor) * entry["standard_deviation"]
     if "interval_with_base" in entry:
@@ -86,10 +88,11 @@ def numbers(values: Mapping[str, float], units: Mapping[str, str], tables: Seque
 
 
 def added(effect: str, parameter: str, entry: Mapping[str, Any]) -> dict[str, Any]:
-    """A parameter as a model file has it: value and ends of its interval."""
-    ends = [entry[key] for key in ("value", "low", "high") if key in entry]
+    """A parameter as a model file has it: value, ends of its interval, the other value that shows the same."""
+    keys = [key for key in ("value", "low", "high", "alike") if key in entry]
+    ends = [entry[key] for key in keys]
     scale = of_parameter(largest(*ends), entry.get("unit", "1"), is_direction(effect, parameter))
-    told = {key: scale.number(entry[key]) for key in ("value", "low", "high") if key in entry} | {"unit": scale.unit}
+    told = {key: scale.number(entry[key]) for key in keys} | {"unit": scale.unit}
     return {**entry, **told, "si": dict(entry)}
 
 

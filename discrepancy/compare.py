@@ -39,6 +39,7 @@ from discrepancy.scales import Scale, of_calibrated, shown
 from discrepancy.standing_notes import floating_of, standing_notes
 from discrepancy.stiffest import too_soft
 from discrepancy.unstated_texts import place_texts
+from discrepancy.untold import parts_untold_before
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer
@@ -103,7 +104,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records, softer=softer_by_loops(figures))
     doubts += zero_texts(model, space, space.base)
-    warnings = beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
+    warnings = parts_untold_before(file) + beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
     return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
 

@@ -5,7 +5,7 @@ runs that the parameters were fitted to is never called a success.
 """
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
@@ -24,9 +24,11 @@ from discrepancy.intervals import relied_on
 from discrepancy.key_figures import KeyFigure
 from discrepancy.locked_zeros import zeros_told
 from discrepancy.model_file import ModelFile
+from discrepancy.opposite_sign import others_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
+from discrepancy.ring_directions import either_texts
 from discrepancy.sample_errors import patterns_text, plain, samples_text
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
@@ -98,6 +100,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
+    others = others_of(fit, space)
     sure = intervals_of(diagnostician, fit, settings.coverage, answer)
     settings_found = dict(file.settings)
     for candidate in fit.candidates:
@@ -107,7 +110,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
             continue
         effects.setdefault(candidate.name.partition(".")[0], {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
-                     "low": float(sure[p.name][0]), "high": float(sure[p.name][1])}
+                     "low": float(sure[p.name][0]), "high": float(sure[p.name][1])} | ({"alike": others[p.name]} if p.name in others else {})
             for p in candidate.parameters
         })  # fmt: skip
     extended = replace(file, effects=effects, settings=settings_found)
@@ -124,7 +127,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
         "positions": zeros,
-        "untold": parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else [],
+        "untold": [*(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
+                   *either_told(fit, others, file)],
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
              "noise_floor": a["noise_floor"]}
@@ -136,6 +140,16 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     step["kept"] = keep
     return Extension(replace(extended if keep else file, steps=(*file.steps, step)), step, outcome,
                      {p.name: p.unit for p in diagnostician.space.base.parameters}, figures)
+
+
+def either_told(fit: Refit, others: Mapping[str, float], file: ModelFile) -> list[str]:
+    """What stays open of numbers that were fitted and of which ``others`` show the same."""
+    effects = [
+        {"candidates": [c.name], "parameters": {p.name: {"value": fit.fit.values[p.name], "alike": others[p.name], "direction": p.is_direction}
+                                                for p in c.parameters if p.name in others}}
+        for c in fit.candidates
+    ]  # fmt: skip
+    return either_texts(effects, fit.fit.values, file, bool(file.effects) or len(fit.candidates) > 1)
 
 
 def beginning(file: ModelFile, campaign: Campaign, settings: Settings = Settings(), jobs: int = 1) -> Diagnostician:

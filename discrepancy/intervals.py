@@ -25,6 +25,16 @@ def relied_on(entry: Mapping[str, Any]) -> tuple[float, float]:
     return low, high
 
 
+def values_of(entry: Mapping[str, Any]) -> list[tuple[float, tuple[float, float]]]:
+    """Value and interval of an estimate, and those of the other value that shows the same, ``alike``: as far on for a direction, the other way round for a
+    size."""
+    (low, high), value = relied_on(entry), entry["value"]
+    if (other := entry.get("alike")) is None:
+        return [(value, (low, high))]
+    there = (low + other - value, high + other - value) if entry.get("direction") else (value + other - high, value + other - low)
+    return [(value, (low, high)), (other, there)]
+
+
 def digits_of(low: float, high: float, least: int = 3, write: Writer = general) -> int:
     """Significant digits with which ``write`` tells the ends apart; ``least`` of them where the interval is wide, or none."""
     width, size = high - low, max(abs(low), abs(high))
@@ -47,3 +57,10 @@ def estimate_text(value: float, interval: tuple[float, float], least: int, write
     if high - low <= NO_WIDTH * max(abs(low), abs(high)):
         return write(value, least), UNDETERMINED
     return write(value, digits_of(low, high, least, write)), interval_text(low, high, least, write)
+
+
+def both_texts(entry: Mapping[str, Any], number: Callable[[float], float], least: int, write: Writer) -> tuple[str, str]:
+    """``estimate_text`` of an estimate, in the unit that ``number`` makes, and behind it that of the other value that shows the same."""
+    texts = [estimate_text(number(value), (number(low), number(high)), least, write) for value, (low, high) in values_of(entry)]
+    value, interval = (" or ".join(dict.fromkeys(told)) for told in zip(*texts))
+    return value, interval

@@ -53,12 +53,13 @@ class Head(Strict):
 
 
 class Number(Strict):
-    """A parameter of an effect, and its interval."""
+    """A parameter of an effect, its interval, and another value that shows the same in what it was fitted to."""
 
     value: float
     unit: str = ""
     low: float | None = None
     high: float | None = None
+    alike: float | None = None
 
 
 class SignalEntry(Strict):
@@ -224,7 +225,7 @@ def number_of(effect: Effect, key: str, entry: Any, place: str) -> dict[str, Any
     try:
         number = Number(**entry)
         factor, offset = conversion(number.unit or variable.unit, variable.unit)
-        numbers = {name: factor * value + offset for name in ("value", "low", "high") if (value := getattr(number, name)) is not None}
+        numbers = {name: factor * value + offset for name in ("value", "low", "high", "alike") if (value := getattr(number, name)) is not None}
         check_given(variable, numbers["value"], bool(number.unit))
     except ValidationError as problem:
         raise InputFault(f"{place}.{described(problem, Number, entry)}") from None

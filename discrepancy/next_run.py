@@ -1,7 +1,6 @@
 """Step 6: the cheapest next experiment that would separate what is left, within the rig's limits."""
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise
 from typing import Any
@@ -13,30 +12,25 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
 from discrepancy.clauses import clauses
-from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.chi_square import chi_text
-from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
+from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, rival_of
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Record, is_unplaced
+from discrepancy.problem import BASE, is_unplaced
 from discrepancy.remembered import diagnosed
 from discrepancy.rig_runs import (
     REPEATS,
-    Measurement,
-    at_a_position,
-    at_rated,
     describe,
     limits,
-    possible,
 )
 from discrepancy.scales import shown
 from discrepancy.unstated_texts import without_place
-from discrepancy.untold import origins_untold, parts_untold, parts_untold_before
+from discrepancy.untold import asked_of_runs, origins_untold, parts_untold, parts_untold_before, repeated
 from discrepancy.verdict import Answer
-from fmu_src.arrays import Floats
+from discrepancy.weighed_runs import apart_text, measured_in, telling_either, weighed
 from fmu_src.effect_words import effect_words
 from fmu_src.threads import sharing_no_matrices
 
@@ -149,10 +143,11 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
-        untold = origins_untold(answer.effects, answer.model.file, campaign) + parts_untold(answer.effects) + parts_untold_before(answer.model.file)
+        untold = questions_left(answer, campaign)
         text = start or rest_text(f"{known} stands alone" if known else "nothing is missing that this campaign shows", untold, campaign)
         before = of_model_before(answer) if answer.verdict == NONE else ""
-        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, text, against, before])), left, untold)
+        either = [] if unexplained else telling_either(answer, campaign)
+        return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, *either, text, against, before])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
@@ -160,13 +155,23 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     return NextRun(answer, result, [member.name for member in chosen], verdict, left)
 
 
+def questions_left(answer: Answer, campaign: Campaign) -> list[str]:
+    """What is named, or stands in the model file, leaves open: first what runs can answer after a change, then what another run tells or none can."""
+    left = list(dict.fromkeys([*origins_untold(answer.effects, answer.model.file, campaign), *parts_untold(answer.effects),
+                               *parts_untold_before(answer.model.file), *answer.untold]))  # fmt: skip
+    by_runs = asked_of_runs(left)
+    return by_runs + [text for text in left if text not in by_runs]
+
+
 def rest_text(stands: str, untold: Sequence[str], campaign: Campaign) -> str:
     """What is said of an answer that needs no separating: that this is all, or that questions are open and what they cost, never both."""
-    if not untold:
-        return f"nothing is left to separate: {stands}"
+    by_runs = asked_of_runs(untold)
+    if not by_runs:
+        return f"{'apart from that ' if untold else ''}nothing is left to separate: {stands}"
     cost = f"{REPEATS * campaign.rig.cost_per_run:g} {campaign.rig.currency.removeprefix('1')}".rstrip() if campaign.rig else f"{REPEATS} runs"
-    asked = "this can still be asked: it costs" if len(untold) == 1 else f"these {len(untold)} can still be asked: each costs"
-    return f"{asked} the change itself and {cost} after it, {REPEATS} repetitions of a condition; apart from that {stands}"
+    which = "this" if len(untold) == 1 else "only the first of these" if len(by_runs) == 1 else f"the first {len(by_runs)} of these"
+    asked = f"{which} can still be asked: {'it' if len(by_runs) == 1 else 'each'} costs"
+    return f"{asked} the change itself and {cost} after it, {REPEATS} repetitions of {repeated(campaign)}; apart from that {stands}"
 
 
 def of_model_before(answer: Answer) -> str:
@@ -176,21 +181,6 @@ def of_model_before(answer: Answer) -> str:
         return ""
     told = f"which run tells {' and '.join(added)}, which its file has, from what came nearest to it"
     return f"{told} is asked of the model that it was added to (`rvwear next` of that)"
-
-
-def weighed(answer: Answer, campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:
-    """Every experiment that the rig can do, held against what the rivals predict of it."""
-    experiments = possible(answer.model, campaign, answer.diagnosis.fits.space)
-    if any(POSITION in rival.name for rival in rivals):
-        experiments += [at_a_position(e, campaign) for e in experiments if is_unplaced(e.record)]
-
-    def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:
-        return answer.model.one(experiment.record, {**answer.model.zeros, **values})
-
-    def naming(p: Proposal) -> str:
-        return f"{p.kind} at {describe(p.settings, campaign, p.spans)}"
-
-    return next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
 
 
 def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
@@ -208,34 +198,14 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
     if not result.proposals:
         return said
     best = result.proposals[0]
+    for proposal in result.proposals:
+        if proposal.least >= ENOUGH and (there := measured_in(proposal, campaign)):
+            # What is decided need not be measured again.
+            return f"{said}; the runs of {proposal.kind} in {' and '.join(there)} tell them apart already ({apart_text(proposal)})"
     if best.least >= ENOUGH:
-        cheapest = f"the cheapest that tells them apart ({apart_text(best)})"
-        if is_measured(best, campaign):
-            return f"{said}; the runs of {best.experiment} tell them apart already, and repeating one is {cheapest}"
-        return f"{said}; whoever wants it confirmed against that measures {best.experiment}, {cheapest}"
+        return f"{said}; whoever wants it confirmed against that measures {best.experiment}, the cheapest that tells them apart ({apart_text(best)})"
     most = f"most {best.experiment} ({apart_text(best)})"
     return f"{said}; no further experiment within the limits would tell these apart by itself, {most}"
-
-
-def apart_text(best: Proposal) -> str:
-    """How far two rivals lie apart in an experiment."""
-    return f"they differ there by {chi_text(best.least)} in chi-square, of which {ENOUGH:g} is enough"
-
-
-def is_measured(proposal: Proposal, campaign: Campaign) -> bool:
-    """Whether the campaign has a run of what is proposed: at the same settings, where these make no difference within their span; of what no run
-    states nothing is asked."""
-    stated = {name for record in campaign.records for name in record.factors}
-    wanted = {name: proposal.spans.get(name, (value, value)) for name, value in proposal.settings.items() if name in stated}
-
-    def alike(record: Record) -> bool:
-        return stream_of(record) == proposal.kind and all(within(record.factors.get(name), span) for name, span in wanted.items())
-
-    return any(map(alike, campaign.records))
-
-
-def within(value: float | None, span: tuple[float, float]) -> bool:
-    return value is not None and (span[0] <= value <= span[1] or any(math.isclose(value, end, rel_tol=1e-9, abs_tol=1e-9) for end in span))
 
 
 def plainly(member: Refit) -> str:

@@ -1,70 +1,60 @@
-"""Effects whose opposite would show the same: what was measured then says how large they are, not which way.
+"""Effects that would show the same the other way round, or half a turn on: what was measured then says how large they are, not which way, or not where.
 
 The seat of one crank, too far forward by as much as it might be too far back, opens a loop as wide.
 """
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from discrepancy.as_told import told_name
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.other_places import as_shown
-from fmu_src.table import Table
+from discrepancy.problem import Candidate
 
 SAME = "shows the same in the runs that were fitted"
+# Behind the name of an effect.
+OTHER_WAY = f"with the opposite sign it {SAME}; they tell its size, not which way"
 
 
-def sign_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[str]:
-    """A sentence for each named effect whose sign the fitted runs do not tell; two predictions each."""
+def with_others(effects: Sequence[Mapping[str, Any]], found: Diagnosis) -> list[dict[str, Any]]:
+    """The effects, each parameter with the other value that shows the same as ``alike`` where there is one; two predictions each, none of a diagnosis that
+    was stopped."""
+    named = {candidate for effect in effects for candidate in effect["candidates"]}
+    members = [] if found.verdict == STOPPED else [m for m in found.fits.members if named & {c.name for c in m.candidates}]
+    # Of alternatives the first is the one whose values are told.
+    others = {name: value for member in reversed(members) for name, value in others_of(member, found.fits.space).items()}
     return [
-        f"{member.name}: with the opposite sign it {SAME}; they tell its size, not which way"
-        for member in alone(effects, found)
-        if either_sign(member, found)
+        {**effect, "parameters": {name: {**entry, "alike": others[name]} if name in others else entry for name, entry in effect["parameters"].items()}}
+        for effect in effects
     ]
 
 
-def direction_doubts(effects: Sequence[dict[str, Any]], found: Diagnosis, tables: Sequence[Table]) -> list[str]:
-    """A sentence for each direction of a named effect that half a turn further shows the same; two predictions each.
+def others_of(member: Refit, space: Workspace) -> dict[str, float]:
+    """By parameter of a fit the other value that shows the same in the fitted runs: a direction half a turn on, and amplitudes of an effect that may as well be
+    all the other way round.
 
     Of a ring with an even number of pins, about discs that take turns half a turn apart, an error is as well on the other side.
     """
-    found_doubts = []
-    for member in alone(effects, found):
-        if not (others := list(half_a_turn_on(member.candidates, member.fit.values))):
-            continue
-        same = shown_by(member, found)
-        for p, other in others:
-            if same({p.name: other}):
-                here, there = (f"{math.degrees(angle):.1f} deg" for angle in (member.fit.values[p.name], other))
-                found_doubts.append(
-                    f"{told_name(p.name, tables)}: {there} {SAME} as {here}; they do not tell which of the two it is"
-                )
-    return found_doubts
+    same = shown_by(member, space)
+    found = {p.name: other for p, other in half_a_turn_on(member.candidates, member.fit.values) if same({p.name: other})}
+    for candidate in member.candidates:
+        opposite = opposite_of(candidate, member.fit.values)
+        if opposite and same(opposite):
+            found |= opposite
+    return found
 
 
-def alone(effects: Sequence[dict[str, Any]], found: Diagnosis) -> list[Refit]:
-    """The refits of named effects by themselves; none of a diagnosis that was stopped."""
-    if found.verdict == STOPPED:
-        return []
-    members = {m.name: m for m in found.fits.members}
-    return [members[candidate] for e in effects for candidate in e["candidates"] if candidate in members]
-
-
-def either_sign(member: Refit, found: Diagnosis) -> bool:
-    """Whether the effect of a member shows the same with all its amplitudes the other way round."""
-    fitted = dict(member.fit.values)
-    amplitudes = [p for c in member.candidates for p in c.amplitudes if fitted[p.name] != p.off]
+def opposite_of(candidate: Candidate, fitted: Mapping[str, float]) -> dict[str, float]:
+    """All amplitudes of an effect that are not off, the other way round; none where one of them can only go one way."""
+    amplitudes = [p for p in candidate.amplitudes if fitted[p.name] != p.off]
     opposite = {p.name: 2.0 * p.off - fitted[p.name] for p in amplitudes}
-    if not amplitudes or any(p.sign or not p.lower <= opposite[p.name] <= p.upper for p in amplitudes):
-        return False
-    return shown_by(member, found)(opposite)
+    return {} if any(p.sign or not p.lower <= opposite[p.name] <= p.upper for p in amplitudes) else opposite
 
 
-def shown_by(member: Refit, found: Diagnosis) -> Callable[[Mapping[str, float]], bool]:
+def shown_by(member: Refit, space: Workspace) -> Callable[[Mapping[str, float]], bool]:
     """Whether other values of a member's parameters show in the fitted runs what its own do."""
     fitted, own = dict(member.fit.values), {p.name for p in member.own}
-    same = as_shown(found.fits.space, fitted, {name: value for name, value in fitted.items() if name not in own})
+    same = as_shown(space, fitted, {name: value for name, value in fitted.items() if name not in own})
     return lambda other: same({**fitted, **other})

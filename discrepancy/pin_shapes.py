@@ -8,8 +8,8 @@ from discrepancy.untold import origins_untold_of
 
 # By variant: the shape, and what a ring is that has it.
 SHAPES = {
-    "runout": ("a circle off centre", "made or clamped off centre"), "ovality": ("an oval", "oval or clamped so"),
-    "trilobe": ("a shape of three lobes", "made or clamped so"), "harmonics": ("a wavy circle", "made or clamped so"),
+    "runout": ("a circle off centre", "off centre or clamped so"), "ovality": ("an oval", "oval or clamped so"),
+    "trilobe": ("a shape of three lobes", "three-lobed or clamped so"), "harmonics": ("a wavy circle", "wavy or clamped so"),
 }  # fmt: skip
 
 

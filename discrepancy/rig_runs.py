@@ -173,6 +173,9 @@ def setting_text(name: str, span: tuple[float, float], campaign: Campaign) -> st
     scale = of_axis(name, campaign)
     low, high = (f"{scale.number(v):{'.3g' if 0.0 < abs(scale.number(v)) < 10.0 else '.0f'}}" for v in span)
     unit = unit_of_axis(name, campaign)
+    if name == LOCKED_AT and low != high:
+        # They lie evenly over a turn of the cranks.
+        return "input locked anywhere"
     if name == LOCKED_AT:
         return f"input locked at {position_text(span[0], scale, unit)}"
     return f"{low} {unit}".rstrip() if low == high else f"any {name} from {low} to {high} {unit}".rstrip()

@@ -8,7 +8,7 @@ from typing import Any
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.intervals import digits_of, estimate_text, relied_on
+from discrepancy.intervals import both_texts, digits_of, estimate_text, relied_on
 from discrepancy.problem import is_direction
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable
@@ -140,8 +140,9 @@ def of_estimate(entry: Mapping[str, Any]) -> Scale:
 
 
 def estimate_texts(entry: Mapping[str, Any]) -> tuple[str, str, str]:
-    """``parameter_texts`` of an estimate as a diagnosis has it."""
-    return parameter_texts(entry["value"], relied_on(entry), entry["unit"], entry.get("direction", False))
+    """``parameter_texts`` of an estimate as a diagnosis has it, with the other value that shows the same where there is one."""
+    scale = of_estimate(entry)
+    return *both_texts(entry, scale.number, 4, readable), "" if scale.unit == "1" else scale.unit
 
 
 def largest(*values: float) -> float:

@@ -3,12 +3,18 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from discrepancy.campaign.design import Design
+from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.model import Campaign
-from discrepancy.campaign.pairs import PAIRS, judge
+from discrepancy.campaign.pairs import PAIRS, Pair, judge
 from discrepancy.model_file import ModelFile
+from discrepancy.problem import ERROR
 from fmu_src.effect_words import effect_words
 
+# By how an amplitude of the ring begins: what a ring is that has it.
+RINGS = {"pin_ring_runout": "off centre", "pin_ring_ovality": "oval", "pin_ring_trilobe": "three-lobed", "pin_ring_cos": "wavy", "pin_ring_sin": "wavy"}
+NOT_TOLD = "this campaign does not tell"
+# Turns of the output, less what a record lacks at its end.
+WHOLE_TURN = 0.99
 # Of an effect at one of several parts with which the reducer as a whole does the same.
 SAME_WITH_EACH = (
     "no other run of these signals tells, for they are the same with each; measure these parts, or exchange one of them for that of another unit and"
@@ -34,7 +40,34 @@ def origins_untold(effects: Sequence[Mapping[str, Any]], file: ModelFile, campai
 
 def origins_untold_of(known: Iterable[str], campaign: Campaign) -> list[str]:
     """The same of parameters by their names."""
-    names = list(known)
-    verdicts = (judge(pair, Design(campaign)) for pair in PAIRS if pair.within and any(name.startswith(pair.within) for name in names))
-    return [f"whether it is {', or '.join(v.pair.effects)}, this campaign does not tell: {v.pair.experiment}"
-            for v in verdicts if v.status == "not separable"]  # fmt: skip
+    names, design = list(known), Design(campaign)
+    verdicts = (judge(pair, design) for pair in PAIRS if pair.within and any(name.startswith(pair.within) for name in names))
+    return [
+        f"whether it is {', or '.join(origins_of(v.pair, names))}, {NOT_TOLD}: {v.pair.experiment}{stated_text(v.pair, design)}"
+        for v in verdicts if v.status == "not separable"
+    ]  # fmt: skip
+
+
+def origins_of(pair: Pair, names: Sequence[str]) -> tuple[str, ...]:
+    """What an effect may come from, the ring by the shape that it has."""
+    rings = dict.fromkeys(ring for start, ring in RINGS.items() if start.startswith(pair.within) and any(name.startswith(start) for name in names))
+    return (*pair.effects[:-1], f"a ring that is {' and '.join(rings)} or clamped so") if rings else pair.effects
+
+
+def stated_text(pair: Pair, design: Design) -> str:
+    """How a campaign states what is done to the unit between two runs."""
+    done = dict.fromkeys(need.intervention for needs in pair.alternatives for need in needs if need.intervention and not need.met(design))
+    return "".join(f'; the runs after it are a condition of their own, with interventions = ["{word}"]' for word in done)
+
+
+def asked_of_runs(untold: Sequence[str]) -> list[str]:
+    """Of what is untold what runs can answer, once a part was changed or turned."""
+    return [text for text in untold if any(word in text for word in (SAME_WITH_EACH, NOT_TOLD))]
+
+
+def repeated(campaign: Campaign) -> str:
+    """Which condition is repeated for that: one of transmission errors over a whole turn, if there is one."""
+    turned = [record for record in campaign.training if record.quantity == ERROR and turns(record) >= WHOLE_TURN]
+    found = next(iter(turned or campaign.training), None)
+    what = "a condition of transmission_error over a whole turn" if turned else "a condition"
+    return f"{what}{f', such as {found.condition}' if found else ''}"

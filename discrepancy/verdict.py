@@ -25,11 +25,11 @@ from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, S
 from discrepancy.key_figures import KeyFigure, calibrated_first
 from discrepancy.locked_zeros import zero_texts, zeros_told
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import direction_doubts, sign_doubts
+from discrepancy.opposite_sign import with_others
 from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.ring_directions import ring_texts, seen_from_crank
+from discrepancy.ring_directions import either_texts, ring_texts, seen_from_crank
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.unsearched_places import unsearched_text
 from discrepancy.unstated_texts import unstated_texts
@@ -186,10 +186,10 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
-    effects = seen_from_crank(effects, fit.values)
-    doubts += ring_texts(effects, fit.values, model.file) + sign_doubts(effects, found)
-    doubts += direction_doubts(effects, found, as_told.tables_of(model))
+    effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
+    doubts += ring_texts(effects, fit.values, model.file)
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
+    untold += either_texts(effects, fit.values, model.file, bool(model.file.effects) or verdict == SEVERAL)
     # Who interrupts waits for nothing more.
     after = figures_of(doctor, model, fit.values) if best and figures and verdict != STOPPED else []
     # A stiffness that what is named explains is no riddle.

@@ -40,8 +40,8 @@ def scale_of(size: float, variable: Variable) -> Scale:
 
 
 def written_entry(variable: Variable, entry: dict[str, Any]) -> dict[str, Any]:
-    """Value and interval of an effect's parameter [its SI unit], which stays within its bounds as it is read."""
-    numbers: dict[str, float] = {key: float(entry[key]) for key in ("value", "low", "high") if key in entry}
+    """Value, interval and the other value of an effect's parameter [its SI unit], which stays within its bounds as it is read."""
+    numbers: dict[str, float] = {key: float(entry[key]) for key in ("value", "low", "high", "alike") if key in entry}
     half = 0.5 * abs(numbers.get("high", math.nan) - numbers.get("low", math.nan))
     for scale in (scale_of(largest(*numbers.values()), variable), Scale(1.0, variable.unit)):
         back, offset = conversion(scale.unit, variable.unit)

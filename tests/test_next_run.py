@@ -9,7 +9,7 @@ import pytest
 from cli.screen import console
 from cli.show.comparison import show_asked, show_next
 from discrepancy.campaign.model import Campaign, Rig
-from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment
+from discrepancy.inference.next_experiment import Experiment, Proposal, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
@@ -17,10 +17,13 @@ from discrepancy.next_run import NextRun, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.rig_runs import at_rated, conditions, describe, possible
+from discrepancy.ring_directions import either_texts
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
+from discrepancy.weighed_runs import measured_in
 from reducers.reducer import load_reducer
 
+RV = load_reducer("RV20E-121")
 RIG = Rig({"speed": (52.36, 314.2), "load": (0.0, 167.0), "temperature": (293.15, 333.15), "hours": (3.6e5, 3.6e7)}, (1,), (), (), 100.0, 1.0, 0.0, "EUR")
 CAMPAIGN = Campaign(None, "bench", "", None, 121.0, 167.0, {}, (), {}, {}, (), RIG, "", speed_at="output")
 
@@ -94,7 +97,7 @@ def answer_of(verdict, members=(), findings=(), rivals=()):
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
     diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local, nuisances={})
     said = "that no effect of the catalogue explains"
-    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[])
+    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[], untold=[])
 
 
 @pytest.mark.parametrize(("verdict", "members"), [(INCOMPLETE, ["drag"]), (UNKNOWN, [])])
@@ -150,14 +153,18 @@ def test_what_one_effect_may_come_from_is_said():
     """An oval ring may have been ground so or be clamped so: `campaign check` asked for the ring to be turned, and nothing was left to ask here."""
     error = Record("te", "transmission_error", "rad", "c", 1, np.zeros(5), {"angle": np.linspace(0.0, 7.0, 5)}, {"direction": 1.0})
     campaign = replace(CAMPAIGN, records=(error,), conditions={"c": SimpleNamespace(interventions=())})
-    asked = "whether it is the pins' own places, or an oval or clamped ring, this campaign does not tell"
+    asked = "whether it is the pins' own places, or a ring that is oval or clamped so, this campaign does not tell"
     # First, for it is what is open.
     answer = answer_of(ONE, ["pin_position_errors"])
-    answer.effects.append({"parameters": {"pin_ring_ovality": {}}})
+    answer.effects.append({"name": "pin_position_errors", "parameters": {"pin_ring_ovality": {}}})
     said = proposal_for(answer, campaign).verdict
     assert said.startswith(asked) and "turn the ring" in said
+    # How the change is stated stood in `campaign check` alone.
+    assert 'the runs after it are a condition of their own, with interventions = ["ring_turned"]' in said
+    answer.effects[:] = [{"name": "pin_position_errors", "parameters": {"pin_ring_trilobe": {}}}]
+    assert "or a ring that is three-lobed or clamped so, this campaign" in proposal_for(answer, campaign).verdict
     # A single pin is clamped by nobody.
-    answer.effects[:] = [{"parameters": {"proud_pin": {}}}]
+    answer.effects[:] = [{"name": "pin_position_errors", "parameters": {"proud_pin": {}}}]
     assert asked not in proposal_for(answer, campaign).verdict
     # Once it stands in the model file nothing is missing, and the question is as open.
     answer = answer_of(NONE)
@@ -166,7 +173,7 @@ def test_what_one_effect_may_come_from_is_said():
     assert said.startswith(asked)
     # "nothing is left to separate" stood behind the question: what it costs does.
     assert "nothing is left" not in said
-    assert "this can still be asked: it costs the change itself and 200 EUR after it, 2 repetitions of a condition" in said
+    assert "this can still be asked: it costs the change itself and 200 EUR after it, 2 repetitions of a condition of transmission_error over a whole turn, such as c;" in said
     assert said.endswith("apart from that nothing is missing that this campaign shows")
     assert "and 2 runs after it" in proposal_for(answer, replace(campaign, rig=None)).verdict
 
@@ -223,6 +230,27 @@ def test_parts_that_look_alike_are_no_end_of_the_matter(verdict):
     answer.model.file.steps = ()
     answer.effects = [{"name": "crank_lobe_errors", "parameters": {}, "place": "crank 1 at disc 1", "other_places": []}]
     assert "no other run" not in proposal_for(answer, CAMPAIGN).verdict
+
+
+def test_what_no_run_tells_is_said_and_costs_no_run():
+    """The other angle was forgotten once the effect was in the model file, and 2 runs were said to answer it."""
+    (other,) = either_texts([{"parameters": {"pin_ring_trilobe_angle": {"value": 0.3, "alike": 1.3, "direction": True}}}], {}, ModelFile(RV.name, RV), more=False)
+    answer = answer_of(NONE)
+    answer.model.file.steps = ({"untold": [other], "kept": True},)
+    said = proposal_for(answer, CAMPAIGN).verdict
+    assert said == f"{other}; apart from that nothing is left to separate: nothing is missing that this campaign shows"
+    assert "no run of the reducer as a whole tells" in said and "2 repetitions" not in said
+
+
+def test_a_place_that_makes_no_difference_is_no_place():
+    """"The runs of hysteresis[locked=input] at input locked at 0 deg" were never made: those at 90 and 210 deg were."""
+    loops = tuple(Record(f"l{at}", "hysteresis", "rad", f"locked_{at}deg", 1, np.zeros(5), {"torque": np.zeros(5)}, {"locked_at": np.radians(at)},
+                         tags={"locked": "input"}) for at in (90, 210))  # fmt: skip
+    span = (0.0, np.radians(837.0))
+    assert describe({"locked_at": 0.0}, CAMPAIGN, {"locked_at": span}) == "input locked anywhere"
+    proposal = Proposal("x", {"locked_at": 0.0, "temperature": 293.15}, 2.0, 9.0, 9.0, {}, "hysteresis[locked=input]", {"locked_at": span})
+    assert measured_in(proposal, replace(CAMPAIGN, records=loops)) == ["locked_90deg", "locked_210deg"]
+    assert not measured_in(replace(proposal, spans={}), replace(CAMPAIGN, records=loops))
 
 
 def test_what_it_costs_not_to_know_has_the_unit_of_its_signal():

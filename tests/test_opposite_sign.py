@@ -6,14 +6,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from discrepancy import as_told, weighed_runs
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.next_experiment import Proposal
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.verdict import ONE, STOPPED
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import direction_doubts, sign_doubts
+from discrepancy.opposite_sign import with_others
+from discrepancy.page import amounts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.ring_directions import ring_texts, seen_from_crank
+from discrepancy.ring_directions import either_texts, ring_texts, seen_from_crank
+from discrepancy.scales import estimate_texts
+from discrepancy.weighed_runs import law_of, telling_either
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 
@@ -36,7 +41,14 @@ def space():
 
 
 def doubts(space, name, values, verdict=ONE):
-    return sign_doubts([{"candidates": [name]}], found_as(space, name, values, verdict))
+    return either_texts(told(space, name, values, verdict), {}, space.model.file, more=False)
+
+
+def told(space, name, values, verdict=ONE):
+    found = found_as(space, name, values, verdict)
+    (member,) = found.fits.members
+    entries = {p.name: {"value": values[p.name]} | ({"direction": True} if p.is_direction else {}) for p in member.own}
+    return with_others([{"name": name.partition(".")[0], "candidates": [name], "parameters": entries}], found)
 
 
 def found_as(space, name, values, verdict=ONE):
@@ -61,6 +73,29 @@ def test_what_can_only_go_one_way_or_shows_otherwise_is_not_doubted(space):
     assert not doubts(space, "profile_modification", {"equidistant_added": -5e-6, "shift_added": 0.0})
 
 
+def test_next_says_of_what_is_open_which_run_would_tell_it_or_that_none_does(space, monkeypatch):
+    """Once the effect was in the model file nothing was asked about which way it goes."""
+    found = SimpleNamespace(fits=SimpleNamespace(members=[], space=space))
+    seat = {"carrier_seat_shift": {"value": 7e-6, "alike": -7e-6, "unit": "m"}}
+    file = replace(space.model.file, effects={"hole_position_errors": seat})
+    answer = SimpleNamespace(effects=[], diagnosis=found, model=SimpleNamespace(file=file))
+    assert law_of(answer).values == space.base.values
+    best = Proposal("loop at 90 deg", {}, 2.0, 9.0, 9.0, {}, "loop")
+    for proposals, measured, says in (([best], [], "loop at 90 deg tells that, the cheapest that does (they differ there by 9.0 in chi-square, of which 6 is enough)"),
+                                      ([best], ["a"], "no run within the limits tells that by itself"), ([], [], "no run within the limits tells that by itself")):  # fmt: skip
+        asked = []
+        monkeypatch.setattr(weighed_runs, "weighed", lambda answer, campaign, rivals: asked.append(rivals) or SimpleNamespace(proposals=proposals))
+        monkeypatch.setattr(weighed_runs, "measured_in", lambda proposal, campaign: measured)
+        assert telling_either(answer, CAMPAIGN) == [f"which way hole position errors go: {says}"]
+        assert asked[0][1].values["carrier_seat_shift"] == -7e-6 and "carrier_seat_shift" not in asked[0][0].values
+    # What a symmetry hides is not asked of any run.
+    turned = {"pin_ring_trilobe_angle": {"value": 0.3, "alike": 1.3, "unit": "rad"}}
+    answer.model.file = replace(file, reducer=RV, effects={"pin_position_errors": turned})
+    assert not telling_either(answer, CAMPAIGN)
+    answer.model.file = replace(file, reducer=RV, effects={"pin_position_errors": turned, "crank_lobe_errors": {}})
+    assert telling_either(answer, CAMPAIGN) == ["which of the two effects.pin_position_errors.ring_trilobe_angle is: no run within the limits tells that by itself"]
+
+
 @pytest.fixture(scope="module")
 def turning():
     """Transmission errors over a turn of the output, twice."""
@@ -75,15 +110,19 @@ def turning():
 
 
 @pytest.mark.parametrize("name, values, here, there", [
-    ("pin_position_errors.runout", {"pin_ring_runout": 5e-6, "pin_ring_runout_angle": 0.7}, "40.1 deg", "-139.9 deg"),
+    ("pin_position_errors.runout", {"pin_ring_runout": 5e-6, "pin_ring_runout_angle": 0.7}, "40.11", "-139.89"),
     # Its lobes and hollows: half a turn on is sixty degrees on.
-    ("pin_position_errors.trilobe", {"pin_ring_trilobe": 4e-6, "pin_ring_trilobe_angle": 0.7}, "40.1 deg", "100.1 deg"),
+    ("pin_position_errors.trilobe", {"pin_ring_trilobe": 4e-6, "pin_ring_trilobe_angle": 0.7}, "40.11", "100.11"),
 ])  # fmt: skip
 def test_a_ring_shows_as_well_what_is_on_its_other_side(turning, name, values, here, there):
     """One of the two was told, with an interval of half a degree."""
-    (text,) = direction_doubts([{"candidates": [name]}], found_as(turning, name, values), turning.model.bench.tables)
-    assert f"{there} shows the same in the runs that were fitted as {here}" in text and "_angle: " in text
-    assert not direction_doubts([{"candidates": [name]}], found_as(turning, name, values, STOPPED), turning.model.bench.tables)
+    (text,) = doubts(turning, name, values)
+    assert f"_angle: it is in one of 2 places, which show the same: {here} or {there} deg" in text
+    assert not doubts(turning, name, values, STOPPED)
+    # No run of such a reducer tells; beside another effect one may.
+    assert "no run of the reducer as a whole tells which of the two it is, for turned by half a turn it looks as it does; measure the ring itself" in text
+    (beside,) = either_texts(told(turning, name, values), {}, turning.model.file, more=True)
+    assert beside.endswith("; the runs that were fitted do not tell which of the two it is")
 
 
 def test_an_oval_is_the_same_half_a_turn_on(turning):
@@ -91,23 +130,34 @@ def test_an_oval_is_the_same_half_a_turn_on(turning):
     assert not list(half_a_turn_on(member.candidates, member.fit.values))
 
 
-def test_directions_round_the_ring_are_told_from_a_part_that_can_be_found():
-    effect = {"parameters": {"pin_ring_runout": {}, "pin_ring_runout_angle": {"direction": True}}}
-    (text,) = ring_texts([effect], {"angle_zero[1]": 0.1, "pin_ring_runout": 5e-6}, ModelFile(RV.name, RV))
-    assert "count from its pin 1" in text and "crank 1 stands at 5.7 deg where mounting 1 shows angle 0" in text
-    of_discs = {"parameters": {"disc_runout_angle": {"direction": True}}}
-    assert not ring_texts([effect], {"pin_ring_runout": 5e-6}, ModelFile(RV.name, RV)) and not ring_texts([of_discs], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
+def test_a_direction_is_told_with_all_places_where_it_may_be():
+    """16.31 deg, 10.61 deg "which can be carried to the part", whole pitches from there and 76.3 deg stood in four places; the first was taken for a fact."""
+    lobe = {"value": np.radians(16.3138), "alike": np.radians(76.3138), "direction": True, "meaning": "direction of one of the three lobes"}
+    parameters = {"pin_ring_trilobe": {"value": 4e-6}, "pin_ring_trilobe_angle": lobe}
+    (effect,) = seen_from_crank([{"name": "pin_position_errors", "parameters": parameters}], {"angle_zero[1]": np.radians(5.7)}, ModelFile(RV.name, RV))
+    assert effect["parameters"]["pin_ring_trilobe_angle"]["meaning"] == (
+        "direction of one of the three lobes; it is in one of 2 places, which show the same: 10.61 or 70.61 deg from crank 1 where mounting 1 shows angle 0, the way"
+        " the output turns; that is 16.31 or 76.31 deg from pin 1, and any of the 40 pins may be pin 1"
+    )
+    assert effect["parameters"]["pin_ring_trilobe"] == {"value": 4e-6}
+    # Where nothing was found that angles count from it counts from pin 1 alone, and an oval has no other side.
+    (as_it_was,) = seen_from_crank([{"parameters": parameters}], {}, ModelFile(RV.name, RV))
+    assert as_it_was["parameters"]["pin_ring_trilobe_angle"]["meaning"].endswith("2 places, which show the same: 16.31 or 76.31 deg")
+    oval = {"pin_ring_ovality_angle": {"value": np.radians(-89.13), "direction": True, "meaning": "the long axis"}}
+    assert seen_from_crank([{"parameters": oval}], {}, ModelFile(RV.name, RV)) == [{"parameters": oval}]
+    (seen,) = seen_from_crank([{"parameters": oval}], {"angle_zero[1]": np.radians(5.7)}, ModelFile(RV.name, RV))
+    assert seen["parameters"]["pin_ring_ovality_angle"]["meaning"].startswith("the long axis; -94.83 deg from crank 1 where mounting 1 shows angle 0")
+    # Said at the number, and not again in another way.
+    assert not ring_texts([effect], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
 
 
-def test_a_direction_is_told_from_the_crank_at_the_zero_of_the_encoder_too():
-    """-89.13 deg of an interval of 0.06 deg counted from a pin that is known to 9 deg; what is carried to the part had to be computed from a note."""
-    parameters = {"pin_ring_ovality": {"value": 4e-6}, "pin_ring_ovality_angle": {"value": np.radians(-89.13), "direction": True, "meaning": "the long axis"}}
-    (effect,) = seen_from_crank([{"name": "pin_position_errors", "parameters": parameters}], {"angle_zero[1]": np.radians(5.7)})
-    assert "the long axis, from pin 1" in effect["parameters"]["pin_ring_ovality_angle"]["meaning"]
-    assert "that is -94.83 deg from crank 1 where mounting 1 shows angle 0" in effect["parameters"]["pin_ring_ovality_angle"]["meaning"]
-    assert effect["parameters"]["pin_ring_ovality"] == {"value": 4e-6}
-    (as_it_was,) = seen_from_crank([{"parameters": parameters}], {})
-    assert as_it_was["parameters"] == parameters
+def test_both_values_and_their_intervals_stand_side_by_side():
+    entry = {"value": np.radians(16.3138), "interval": list(np.radians([16.18, 16.4476])), "alike": np.radians(76.3138), "unit": "rad", "direction": True}
+    assert estimate_texts(entry) == ("16.31 or 76.31", "16.18 to 16.45 or 76.18 to 76.45", "deg")
+    assert amounts.estimate(entry) == ("16.31 or 76.31", "16.18 to 16.45 or 76.18 to 76.45", "°")
+    assert as_told.parameter(entry)["alike"] == pytest.approx(76.3138)
+    seat = {"value": 7e-6, "interval": [6e-6, 9e-6], "alike": -7e-6, "unit": "m"}
+    assert estimate_texts(seat) == ("7 or -7", "6 to 9 or -9 to -6", "um")
 
 
 def test_a_pin_is_told_with_those_that_look_alike_and_from_where_it_counts():

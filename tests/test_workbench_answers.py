@@ -64,7 +64,7 @@ def test_what_is_left_open_of_an_answer_is_told_once_each():
     four = {"name": "crank_lobe_errors", "place": "crank 1 at disc 1 or crank 2 at disc 2, which look alike", "other_places": ["crank 2 at disc 2"]}
     pins = "whether it is pins off their places, or a ring clamped so, this campaign does not tell: turn the ring"
     turned = "effects.ring_pin_errors.direction: -139.1 deg shows the same in the runs that were fitted as 40.9 deg; they do not tell which of the two it is"
-    said = left_open(SimpleNamespace(effects=[four, {"name": "drag"}], untold=[pins], warnings=[pins, turned, "another"]))
+    said = left_open(SimpleNamespace(effects=[four, {"name": "drag"}], untold=[pins, turned], warnings=[pins, turned, "another"]))
     assert [text[:24] for text in said] == ["At which part it is (cra", "Whether it is pins off t", "effects.ring_pin_errors."]
 
 

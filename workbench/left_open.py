@@ -15,11 +15,10 @@ if TYPE_CHECKING:
 
 def left_open(answer: "Answer") -> list[str]:
     """Of an answer: parts, origins, and directions or signs that show the same."""
-    from discrepancy.opposite_sign import SAME
     from discrepancy.page.amounts import with_titles
     from discrepancy.untold import parts_untold
 
-    texts = [*parts_untold(answer.effects), *answer.untold, *(text for text in answer.warnings if SAME in text)]
+    texts = [*parts_untold(answer.effects), *answer.untold]
     return [sentence(with_titles(text)) for text in dict.fromkeys(texts)]
 
 

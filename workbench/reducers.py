@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from discrepancy.intervals import interval_text
+from discrepancy.as_told import is_direction
+from discrepancy.intervals import both_texts
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
 from discrepancy.page import amounts
 from discrepancy.written_number import written_entry
@@ -77,9 +78,10 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
             else:
                 written = written_entry(variable, entry)
                 unit = written["unit"]
-                told = {"value": number(float(written["value"]), 5)}
-                if {"low", "high"} <= written.keys():
-                    told["interval"] = interval_text(float(written["low"]), float(written["high"]), 5, number)
+                # With the other value that shows the same, where there is one.
+                value, ends = written["value"], [written[end] for end in ("low", "high") if end in written]
+                estimate = {**written, "interval": ends if len(ends) == 2 else (value, value), "direction": is_direction(name, key)}
+                told = dict(zip(("value", "interval") if len(ends) == 2 else ("value",), both_texts(estimate, float, 5, number)))
             interval = f", interval {told['interval']}" if "interval" in told else ""
             rows.append({
                 "name": f"effects.{name}.{written_name(known[name], key)}", "value": told["value"], "unit": "" if unit == "1" else unit, "range": "",

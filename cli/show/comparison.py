@@ -223,6 +223,8 @@ def show_extension(extension: Extension) -> None:
     for name in dict.fromkeys(candidate.partition(".")[0] for candidate in step["effects"]):
         if held := held_text(name, extension.file):
             out.print(f"  {name}: {held}")
+    if step["kept"]:
+        show_warnings(out, step["untold"])
     show_left(step, out)
 
 

@@ -21,6 +21,8 @@ class Need:
     met: Callable[[Design], bool]
     # What of it the campaign has, beside what is asked for.
     has: Callable[[Design], str] | None = None
+    # What is done to the unit between its runs, by the word that a campaign has for it.
+    intervention: str = ""
 
     def lacking(self, design: Design) -> str:
         """What is asked for, with what there is of it."""
@@ -63,7 +65,7 @@ def levels(factor: str, count: int, *quantities: str) -> Need:
 
 def intervention(name: str, *quantities: str) -> Need:
     text = f"{' or '.join(quantities)} before and after {name} ({INTERVENTIONS[name]})"
-    return Need(text, lambda d: d.intervened(name, *quantities))
+    return Need(text, lambda d: d.intervened(name, *quantities), intervention=name)
 
 
 def both_directions(*quantities: str) -> Need:

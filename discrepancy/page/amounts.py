@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from discrepancy.figure_digits import figure_texts
-from discrepancy.intervals import estimate_text, relied_on
+from discrepancy.intervals import both_texts
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
@@ -114,5 +114,4 @@ def signal_axis(signal: str, unit: str) -> str:
 def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     found = of_estimate(entry)
-    low, high = (found.number(end) for end in relied_on(entry))
-    return *estimate_text(found.number(entry["value"]), (low, high), 3, number), pretty(found.unit)
+    return *both_texts(entry, found.number, 3, number), pretty(found.unit)

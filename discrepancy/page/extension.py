@@ -8,6 +8,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
 from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
+from discrepancy.untold import parts_untold_before
 from discrepancy.wording import signals_left
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
@@ -25,7 +26,8 @@ def extension_page(result: Extension) -> Page:
         f"{reason_text(step)}.{kept if 'stays' not in step.reason else ''}"
     )
     finding += left_sentence(step)
-    warnings = [] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."]
+    warnings = [*(parts_untold_before(result.file) if step.kept else []),
+                *([] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."])]  # fmt: skip
     return Page(
         "An effect added to a model",
         result.file.heading,
@@ -67,7 +69,7 @@ def model_page(file: ModelFile) -> Page:
         ),
         parameters(file),
     ]
-    return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, [])
+    return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, parts_untold_before(file))
 
 
 def reason_text(step: Step) -> str:
@@ -187,7 +189,7 @@ def parameters(file: ModelFile) -> Section:
                 "direction": is_direction(effect, name),
                 "unit": entry.get("unit", "1"),
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
-            }
+            } | ({"alike": entry["alike"]} if "alike" in entry else {})
             value, interval, unit = amounts.estimate(both)
             rows.append([effect_words(effect) if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."
