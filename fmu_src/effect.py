@@ -66,8 +66,8 @@ class Effect:
     """What is known about an effect beside its kernels; ``number`` is that of the physics audit's catalogue.
 
     ``also_in`` names the unit whose effect of the same name is the other half; ``needs`` says without what the effect
-    cannot show: "output pins" of the reducer, or a loop with "locked output".  ``rolled_over``: it acts as each roller passes,
-    so that what it leaves hangs on where the cages stand.
+    cannot show: "output pins" of the reducer, or a loop with "locked output".  ``rolled_over``: it acts as each roller passes the
+    angle of this name, so that what it leaves hangs on where the cages stand.
     """
 
     number: int
@@ -80,7 +80,7 @@ class Effect:
     signals: tuple[str, ...] = ()
     also_in: str = ""
     needs: str = ""
-    rolled_over: bool = False
+    rolled_over: str = ""
 
     def amplitudes(self) -> tuple[EffectParameter, ...]:
         return tuple(p for p in self.parameters if p.kind == "amplitude")

@@ -145,11 +145,6 @@ def told_to(listener: Listener) -> Iterator[None]:
         _listeners.remove(listener)
 
 
-def told_to_nobody() -> None:
-    """In a process that was forked: the listeners, and what they hold on to, are the other process's."""
-    _listeners.clear()
-
-
 @contextmanager
 def task(what: str, total: int | None = None, about: float | None = None, whole: bool = False) -> Iterator[Task]:
     """Something that may take a while."""

@@ -280,9 +280,9 @@ def test_skidding_follows_the_mean_load_of_a_bearing(rv20e):
     assert r.cage_share == pytest.approx(1.0 - 0.2 * math.exp(-mean / 500.0), rel=1e-9)
 
 
-@pytest.mark.parametrize("race, passings", [(0.0, 361), (1.0, 279)])
-def test_spall_shows_when_rollers_pass(bench, race, passings):
-    values = {"spall_depth": 10 * UM, "spall_race": race}
+@pytest.mark.parametrize("depth, passings", [("spall_depth", 361), ("spall_depth_outer", 279)])
+def test_spall_shows_when_rollers_pass(bench, depth, passings):
+    values = {depth: 10 * UM}
     with_pit, without = (turn(bench, rated(bench), v) * ARCSEC for v in (values, {}))
     orders = amplitudes(with_pit - without)
     assert orders[passings] > 0.9 * max(np.delete(orders[100:600], passings - 100)) and orders[2 * passings] > 0.3 * orders[passings]
@@ -295,7 +295,7 @@ def test_spall_shows_when_rollers_pass(bench, race, passings):
 def test_spall_takes_only_from_rollers_over_the_pit(rv20e):
     width, place = 0.3, 4.7124
     for cage in np.linspace(0.0, 2.0 * math.pi / 16, 12):
-        r = in_equilibrium(rv20e.plant, 0.0, cage, spall_depth=10 * UM, spall_width=width, spall_race=1.0)
+        r = in_equilibrium(rv20e.plant, 0.0, cage, spall_depth_outer=10 * UM, spall_width=width)
         x = (cage + 2.0 * math.pi * np.arange(16) / 16 - place + math.pi) % (2.0 * math.pi) - math.pi
         pit = np.where(abs(x) < 0.5 * width, 10 * UM * np.cos(math.pi * x / width) ** 2, 0.0)
         assert np.allclose(r.roller_gap_now[0, 0], pit, atol=1e-12)

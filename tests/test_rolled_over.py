@@ -59,12 +59,15 @@ def test_cages_are_found_beside_the_spall_and_it_is_seen_with_them_there(bench, 
     cages.amplitudes = {"spall_depth": 0.0}
     assert cages.place(SPALL)
     effects = cages.effects(SPALL)
-    ahead = cages.ahead[effects][record.name] / pitch
-    assert abs(math.remainder(ahead - SHARE, 1.0)) < 0.01
-    left = record.values - signal(OverAngle(other, cages.placed(record, effects), ERROR), SPALL)
+    placed = cages.placed(record, effects, SPALL)
+    assert abs(math.remainder(placed.factors[CAGES] / pitch - SHARE, 1.0)) < 0.01
+    left = record.values - signal(OverAngle(other, placed, ERROR), SPALL)
     assert np.std(left) == pytest.approx(NOISE, rel=0.1)
     # It is in the curve already; other effects keep the ripple that they had.
-    assert cages.ripple(record, SPALL) is None and cages.placed(record, frozenset()) is record
+    assert cages.ripple(record, SPALL) is None and cages.placed(record, frozenset(), {}) is record
+    # A pit further on is met at the same time by cages that are as far ahead.
+    further = cages.placed(record, effects, {**SPALL, "spall_angle": 4.8124})
+    assert further.factors[CAGES] - placed.factors[CAGES] == pytest.approx(0.1)
 
 
 def test_how_finely_a_spall_is_computed_is_found_where_it_shows(bench, record):

@@ -94,7 +94,7 @@ CASES: dict[str, tuple[Case, ...]] = {
     "unbalance": (Case("one disc of 0.387 kg at 0.9 mm", {"unbalance": 0.387 * 0.9e-3}),),
     "race_spall": (
         Case("pit of 10 um on an inner race", {"spall_depth": 10 * UM}),
-        Case("pit of 10 um on an outer race", {"spall_depth": 10 * UM, "spall_race": 1.0}),
+        Case("pit of 10 um on an outer race", {"spall_depth_outer": 10 * UM}),
     ),
     "grease_ageing": (
         Case("viscosity doubles, wear triples in 10,000 h; churning 0.2 N m",

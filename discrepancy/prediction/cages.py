@@ -18,7 +18,7 @@ from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
-from discrepancy.prediction.over_angle import CAGES, is_rolled_over
+from discrepancy.prediction.over_angle import CAGES, is_rolled_over, passed_at
 from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record, is_unplaced
@@ -55,17 +55,18 @@ class Cages:
         self.records = apart([bridged(r) for r in records if tells(r) or is_unplaced(r)])
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}
-        # Where the cages stand ahead [rad], by run, if an effect acts as each roller passes: it is seen with them there.
+        # How far the cages stand ahead [rad] of the angle that rollers pass, by run, if an effect acts as each of them does: it is seen with them there.
         self.ahead: dict[frozenset[str], dict[str, float]] = {}
 
     def effects(self, values: Mapping[str, float]) -> frozenset[str]:
         """The effects' amplitudes that are on."""
         return frozenset(n for n, v in values.items() if n in self.amplitudes and v != self.amplitudes[n])
 
-    def placed(self, record: Record, effects: frozenset[str]) -> Record:
-        """The record with its cages where they stand, if that is known beside ``effects`` that act as each roller passes."""
-        cage = self.ahead.get(effects, {}).get(record.name)
-        return record if cage is None else replace(record, factors={**record.factors, CAGES: cage})
+    def placed(self, record: Record, effects: frozenset[str], values: Mapping[str, float]) -> Record:
+        """The record with its cages where they stand, if that is known beside ``effects`` that act as each roller passes: with the angle that is passed
+        they go on, so that a roller is over it at the same time."""
+        ahead = self.ahead.get(effects, {}).get(record.name)
+        return record if ahead is None else replace(record, factors={**record.factors, CAGES: ahead + passed_at(values)})
 
     def ripple(self, record: Record, values: Mapping[str, float]) -> Floats | None:
         """What the record's cages add [rad] to a prediction with the cages where rolling from 0 brings them."""
@@ -93,7 +94,7 @@ class Cages:
         return bool(found)
 
     def found(self, record: Record, own: dict[str, float]) -> Floats | float:
-        """What the record's cages add [rad]; where an effect acts as each roller passes and it is known how far ahead they stand, that [rad]."""
+        """What the record's cages add [rad]; where an effect acts as each roller passes and it is known where they stand, how far ahead of it [rad]."""
         few = record if record.quantity in HELD else fewer(record, turns_of(self.bench, record))
         if few is record:
             there, ripples = OBSERVED[record.quantity](self.bench, record, own), np.array(ripples_of_cages(self.bench, record, own, QUARTERS))
@@ -103,7 +104,7 @@ class Cages:
         misfit = few.values - there
         share, sure = resultant(np.column_stack([cosine, sine]), misfit - middle)
         if sure > KNOWN and record.quantity not in HELD and is_rolled_over(self.bench, own):
-            return self.pitch * (share if few is not record else self.closest(record, own, misfit, share))
+            return self.pitch * (share if few is not record else self.closest(record, own, misfit, share)) - passed_at(own)
         if few is not record:
             [ripple] = ripples_of_cages(self.bench, record, own, [share])
             exactly = (1.0 - sure) * RIPPLE_ERRS * float(np.std(ripple)) > self.bench.allowed(record)

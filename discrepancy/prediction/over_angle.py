@@ -28,8 +28,9 @@ ALIKE = 10
 CAGES = "cages"
 # Places of the cages whose mean is that of all.
 ANYWHERE = 4
-# Amplitudes of effects that act as each roller passes, and where they are off.
+# Amplitudes of effects that act as each roller passes, where they are off, and the angles that rollers pass.
 ROLLED_OVER = {p.variable.name: p.variable.start for effect in PLANT.values() if effect.rolled_over for p in effect.amplitudes()}
+PASSED = {p.variable.name: p.variable.start for effect in PLANT.values() for p in effect.parameters if p.variable.name == effect.rolled_over}
 # Where a pattern lies is seen at some thousand nodes a turn.
 LEVEL_OF_A_PATTERN = 2
 
@@ -37,6 +38,11 @@ LEVEL_OF_A_PATTERN = 2
 def is_rolled_over(bench: Bench, values: Values) -> bool:
     """Whether an effect is on that acts as each roller passes."""
     return any(values.get(name, bench.starts[0][name]) != off for name, off in ROLLED_OVER.items())
+
+
+def passed_at(values: Values) -> float:
+    """Sum of the angles [rad] that rollers pass: what moves one of them moves the cages as far, or the bursts would be elsewhere."""
+    return sum(values.get(name, start) for name, start in PASSED.items())
 
 
 def mean(curves: list[Floats]) -> Floats:

@@ -162,6 +162,6 @@ class PlacedBeside:
     def placed(self, record: Record, effects: Effects, values: Values, closely: bool = True) -> Record:
         """The record, as if locked where that is with the effects that are on: ``closely`` by their own values, else as it was placed with such last."""
         if record.quantity not in HELD:
-            return self.cages.placed(record, effects)
+            return self.cages.placed(record, effects, values)
         known = self.locked_waves.placed(self.locked_places.placed(record, effects, values if closely else None), effects)
         return self.unstated_places.placed(known, effects, values)

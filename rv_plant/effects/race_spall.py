@@ -18,22 +18,22 @@ EFFECT = Effect(
     "fatigue pitting after L10",
     "bursts at the roller-passing orders 361 (inner race) or 279 (outer race), like a threshold; not in the mean",
     (
-        amplitude("spall_depth", "m", "depth of the pit", 5 * UM, 0.0, 500 * UM, sign=1),
+        amplitude("spall_depth", "m", "depth of a pit in the inner race, on the crank", 5 * UM, 0.0, 500 * UM, sign=1, group="inner race"),
+        amplitude("spall_depth_outer", "m", "depth of a pit in the outer race, in the disc", 5 * UM, 0.0, 500 * UM, sign=1, group="outer race"),
         shape("spall_width", "rad", "width of the pit", 0.1, 0.005, 2.0, "assumed: a roller's footprint and more", grid=(0.1, 0.25)),
         shape("spall_angle", "rad", "place of the pit, from the eccentric's direction or the hole's outward radial",
               4.7124, -20.0, 20.0, "assumed: in the zone that positive load loads", grid=(1.5708, 4.7124)),
-        shape("spall_race", "1", "0: inner race (crank), 1: outer race (disc)", 0.0, 0.0, 1.0, "assumed", grid=(0.0, 1.0)),
         choice("spall_disc", "disc whose bearing has the pit", 1, 1, 3, part="disc"),
         choice("spall_crank", "crank whose bearing has the pit", 1, 1, 3, part="crank"),
     ),
     signals=("vibration", "hysteresis", "transmission_error"),
-    rolled_over=True,
+    rolled_over="spall_angle",
 )
 
 
 @kernel
 def before(r):
-    if r.spall_depth == 0.0:
+    if r.spall_depth == 0.0 and r.spall_depth_outer == 0.0:
         return
     discs, cranks, rollers = r.roller_gap_now.shape
     d, c = r.spall_disc - 1, r.spall_crank - 1
@@ -42,14 +42,20 @@ def before(r):
     turn = 2.0 * math.pi
     lobes = r.lobe_gap_added.shape[1]
     # Direction of roller 1 from the hole's radial, and from the eccentric's direction.
-    first = r.cage
-    if r.spall_race < 0.5:
-        first += (1.0 + lobes) * r.ideal_output + turn * c / cranks - disc_offset(r, d)
+    from_hole = r.cage
+    from_eccentric = from_hole + (1.0 + lobes) * r.ideal_output + turn * c / cranks - disc_offset(r, d)
     for k in range(rollers):
-        x = (first + turn * k / rollers - r.spall_angle) / turn
-        x = abs(x - math.floor(x + 0.5)) * turn
-        pit = 0.0
-        if x < 0.5 * r.spall_width:
-            cosine = math.cos(math.pi * x / r.spall_width)
-            pit = r.spall_depth * cosine * cosine
-        r.roller_gap_now[d, c, k] += pit
+        ahead = turn * k / rollers - r.spall_angle
+        r.roller_gap_now[d, c, k] += r.spall_depth * share_of_pit(from_eccentric + ahead, r.spall_width)
+        r.roller_gap_now[d, c, k] += r.spall_depth_outer * share_of_pit(from_hole + ahead, r.spall_width)
+
+
+@kernel
+def share_of_pit(x, width):
+    """Depth of a pit at an angle x [rad] from its middle, of its largest."""
+    turn = 2.0 * math.pi
+    x = abs(x - turn * math.floor(x / turn + 0.5))
+    if x >= 0.5 * width:
+        return 0.0
+    cosine = math.cos(math.pi * x / width)
+    return cosine * cosine
