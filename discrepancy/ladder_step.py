@@ -20,7 +20,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Step:
-    """``training`` and ``held_out``: misfits in the patterns; None where they were not judged."""
+    """``training`` and ``held_out``: misfits in the patterns; None where they were not judged; ``untold``: what of it stays open."""
 
     campaign: str
     effects: tuple[str, ...]
@@ -30,6 +30,7 @@ class Step:
     training: Change | None
     held_out: Change | None
     signals: tuple[SignalEntry, ...]
+    untold: tuple[str, ...] = ()
 
     @property
     def label(self) -> str:
@@ -69,4 +70,4 @@ def step_of(entry: Mapping[str, Any]) -> Step:
 
     signals = tuple(SignalEntry(**s) for s in entry.get("signals") or [])
     return Step(entry.get("campaign", ""), tuple(entry["effects"]), entry.get("verdict", ""), entry.get("reason", ""), entry.get("kept", True),
-                change("training"), change("held_out"), signals)  # fmt: skip
+                change("training"), change("held_out"), signals, tuple(entry.get("untold") or ()))  # fmt: skip

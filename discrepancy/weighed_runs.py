@@ -73,8 +73,8 @@ def law_of(answer: "Answer") -> RivalLaw:
     if members := answer.diagnosis.fits.members:
         return rival_of(members[0], 1.0)
     base = answer.diagnosis.fits.space.base
-    scales = np.array([p.scale for p in base.parameters])
-    return RivalLaw("the model", dict(base.values), base.names, np.linalg.pinv(base.normal, hermitian=True), scales)
+    scales, covariance = np.array([p.scale for p in base.parameters]), np.linalg.pinv(base.normal, hermitian=True).astype(float)
+    return RivalLaw("the model", dict(base.values), base.names, covariance, scales)
 
 
 def apart_text(best: Proposal) -> str:

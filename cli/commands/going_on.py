@@ -24,7 +24,8 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
     if answer.verdict == NONE:
-        why = "of this model, with the question that is open" if answer.untold else "of this model: nothing is missing here"
+        asked = "questions that are" if len(answer.untold) > 1 else "question that is"
+        why = f"of this model, with the {asked} open" if answer.untold else "of this model: nothing is missing here"
         return f"{shlex.join(['rvwear', 'build', '--reducer', options.model, '--output', 'units'])}    # the FMUs {why}"
     if answer.verdict == BASE_OFF and not numbers_of(answer):
         return ""

@@ -224,7 +224,7 @@ def show_extension(extension: Extension) -> None:
         if held := held_text(name, extension.file):
             out.print(f"  {name}: {held}")
     if step["kept"]:
-        show_warnings(out, step["untold"])
+        show_warnings(out, step.get("untold", ()))
     show_left(step, out)
 
 

@@ -8,7 +8,6 @@ from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
 from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
-from discrepancy.untold import parts_untold_before
 from discrepancy.wording import signals_left
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
@@ -26,8 +25,7 @@ def extension_page(result: Extension) -> Page:
         f"{reason_text(step)}.{kept if 'stays' not in step.reason else ''}"
     )
     finding += left_sentence(step)
-    warnings = [*(parts_untold_before(result.file) if step.kept else []),
-                *([] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."])]  # fmt: skip
+    warnings = untold(result.file) + ([] if step.held_out else ["No run was held out: a lower error on fitted runs proves nothing."])
     return Page(
         "An effect added to a model",
         result.file.heading,
@@ -37,6 +35,11 @@ def extension_page(result: Extension) -> Page:
         [*changed_figures(result), signals_section(step), ladder_section(result.file), parameters(result.file)],
         warnings,
     )
+
+
+def untold(file: ModelFile) -> list[str]:
+    """What stays open of all that is in the model."""
+    return [text for step in steps_of(file.steps) if step.kept for text in step.untold]
 
 
 def model_page(file: ModelFile) -> Page:
@@ -69,7 +72,7 @@ def model_page(file: ModelFile) -> Page:
         ),
         parameters(file),
     ]
-    return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, parts_untold_before(file))
+    return Page("Ladder of a model", file.heading, conditions(file), finding, cards(kept[-1]) if kept else [], sections, untold(file))
 
 
 def reason_text(step: Step) -> str:
