@@ -279,7 +279,10 @@ def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
 
 
 def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
-    assert "usual (cycloid handbooks): look at both" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    far = complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    assert "made as 0.363 times the outer diameter of 150 mm" in far and "usual (cycloid handbooks): look at --rated and --diameter, and at their units" in far
+    given = complete(Given(81, 40, 1600.0, known={"pin.circle_radius": 54.5})).doubts[0]
+    assert "usual (cycloid handbooks): look at both" in given and "made" not in given
     assert complete(Given(81, 40, 1600.0)).doubts == [] and complete(Given(81, 40, 1600.0, known={SUN: 18})).doubts == []
 
 

@@ -73,6 +73,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     from cli import screen
     from studies.effects_set import effects_set
     from studies.figure_units import HELD, WIDTHS
+    from studies.hysteresis import ANGLES
     from studies.hysteresis import hysteresis as measure
     from studies.rigid import rigid_supports
     from studies.turn import loop_dataset, loop_figures
@@ -91,7 +92,8 @@ def hysteresis(options: argparse.Namespace) -> int:
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
         about = f"{reducer.name}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
-        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{counted_from(options.reducer)}")
+        few = f"fewer positions, other figures: rvwear reducer check takes the mean of {ANGLES}\n" if at is None and options.angles < ANGLES else ""
+        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{few}{counted_from(options.reducer)}")
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
