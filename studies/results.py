@@ -75,7 +75,7 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict[
     }
     record = {"reducer": pair.reducer.name, "plant": parameters_of(pair.plant), "wear": parameters_of(pair.wear)}
     attributes: dict[str, Any] = dict(provenance(inputs | {"parameters": record, "sources": pair.reducer.sources}))
-    attributes |= {"title": f"wear of {pair.reducer.name} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
+    attributes |= {"title": f"wear of {pair.reducer.heading} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
     return xr.Dataset(variables, coordinates, attributes).assign(spectra.data_vars).assign_coords(spectra.coords)
 
 
