@@ -281,7 +281,10 @@ def wrong_unit(v: Variable, frame: Frame) -> str:
         return f"{v.name}: {fault}"
     if base.get("factor", 1.0) == 1.0 and base.get("offset", 0.0) == 0.0:
         return ""
-    return f"{v.name}: {v.unit} is no SI unit, and kernels get the number as it stands; declare the SI unit (N.m, m, rad, K, Pa, m/(N.m)); people may give any other"
+    return (
+        f"{v.name}: {v.unit} is no SI unit, and kernels get the number as it stands; declare the SI unit (N.m, m, rad, K, Pa, m/(N.m));"
+        " people may give any other"
+    )
 
 
 def line_of(tree: ast.Module, name: str) -> int:

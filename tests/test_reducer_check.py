@@ -159,7 +159,7 @@ def test_a_completed_file_is_held_against_its_catalogue(tmp_path, capsys):
     capsys.readouterr()
     assert main(["reducer", "check", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "of the catalogue: torsional stiffness 60 N.m/arcmin asked, 60 reached; lost motion 0.8 arcmin asked, 0.80" in said and "misses" not in said
+    assert "of the catalogue: torsional stiffness 60 N m/arcmin asked, 60 reached; lost motion 0.8 arcmin asked, 0.80" in said and "misses" not in said
     # Somebody measured the clearance.
     text = re.sub(r'(?m)^clearance = .*$', 'clearance = { value = 4.0, unit = "um", source = "measured" }', path.read_text(encoding="utf-8"))
     path.write_text(text, encoding="utf-8")

@@ -86,8 +86,9 @@ def show_signals(entry: Entry, changes: "Mapping[str, Change]") -> None:
     for doubt in doubts_in(entry.effect, changes):
         out.print(f"doubtful: {doubt}")
     but = f", unless it declares what is not judged, as here {', '.join(unseen_here)}" if unseen_here else ""
-    out.print(f"Doubtful for --check: what is not declared and changed by more than {STANDS_OUT:g} times the noise, what is declared and changed by"
-              f" nothing, and where nothing that is declared is changed by more than the noise{but}. A mean of transmission errors or of a loop is no change here, for nobody knows the zero of an angle.")
+    out.print(f"Doubtful for --check: what is not declared and changed by more than {STANDS_OUT:g} times the noise, what is declared and changed by nothing,"
+              f" and where nothing that is declared is changed by more than the noise{but}. A mean of transmission errors or of a loop is no change here, for"
+              " nobody knows the zero of an angle.")
 
 
 def unseen(entry: Entry, signature: "Signature") -> str:

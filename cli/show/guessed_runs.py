@@ -1,6 +1,5 @@
 """The runs of a proposed campaign in a table: by quantity, repetitions whose names end with their number in one row."""
 
-import os
 import re
 from collections import defaultdict
 from collections.abc import Sequence
@@ -11,8 +10,8 @@ from cli.columns import fill
 from cli.screen import BETWEEN_LINES, EDGE
 from discrepancy.campaign.guess.propose import PlacedRun
 
-# What counts repetitions in a name.
-COUNT = re.compile(r"\d+|[A-Za-z]")
+# A name that ends with what counts repetitions.
+COUNTED = re.compile(r"(.*?)(\d+|[A-Za-z])", re.DOTALL)
 # From so many on that follow each other the first and the last are told.
 MANY = 4
 
@@ -50,10 +49,10 @@ def in_one(names: Sequence[str]) -> str:
     """Names that differ by the count at their end as one, with all counts; empty where they differ otherwise."""
     if len(names) == 1:
         return names[0]
-    # A number is not cut: of 1 and 10 the first figure is no part of what names have in common.
-    before = re.sub(r"\d+$", "", os.path.commonprefix(names))
-    counts = [name.removeprefix(before) for name in names]
-    return f"{before}{listed(counts)}" if all(map(COUNT.fullmatch, counts)) else ""
+    parted = [match.groups() for name in names if (match := COUNTED.fullmatch(name))]
+    if len(parted) < len(names) or len({before for before, _ in parted}) > 1:
+        return ""
+    return f"{parted[0][0]}{listed([count for _, count in parted])}"
 
 
 def listed(counts: Sequence[str]) -> str:

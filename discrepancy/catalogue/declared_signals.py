@@ -86,8 +86,8 @@ def doubts_in(effect: Effect, found: Mapping[str, "Change"]) -> list[str]:
         said.append(f"none of its signals is changed by more than noise at its usual size on {reducer}, most {most.quantity} ({most.text}):"
                     " look at the usual size in EFFECT, and at what the hooks change")  # fmt: skip
     elif still := [q for q in declared if (change := found.get(MADE_OF.get(q, q))) and change.ratio < LEAST_RATIO]:
-        said.append(f"signals have {', '.join(still)}, changed by nothing at its usual size on {reducer}: where nothing else is measured a diagnosis looks for it"
-                    " in vain; leave it out, or look at what the hooks change")  # fmt: skip
+        said.append(f"signals have {', '.join(still)}, changed by nothing at its usual size on {reducer}: where nothing else is measured a diagnosis looks"
+                    " for it in vain; leave it out, or look at what the hooks change")  # fmt: skip
     return said
 
 
