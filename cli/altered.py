@@ -12,7 +12,8 @@ def note_of(changes: Sequence[str], is_moved: bool = True) -> str:
     """Empty where nothing was changed; ``is_moved``: whether what it stands beside is other than with the sources' numbers."""
     if not changes:
         return ""
-    return f"with {', '.join(changes)} instead of the sources' numbers: {'what these carry need not hold' if is_moved else 'nothing here is moved by that'}"
+    told = "conclusions drawn from those need not hold" if is_moved else "nothing here is moved by that"
+    return f"with {', '.join(changes)} instead of the sources' numbers: {told}"
 
 
 def noted_tables(tables: Sequence[Table], note: str) -> list[Table]:

@@ -24,4 +24,4 @@ def reducer_of_model(model: "ModelFile") -> Reducer:
     """The reducer with all that the model adds, called after both."""
     from discrepancy.model_file import extended_reducer
 
-    return replace(extended_reducer(model), name=model.label)
+    return replace(extended_reducer(model), name=model.label, called=model.heading)

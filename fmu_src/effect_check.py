@@ -22,7 +22,7 @@ from typing import Any
 from fmu_src.faults import InputFault, nearest
 from fmu_src.kernel_reading import RECORD, Reading, Source, is_kernel, source_of
 from fmu_src.source_hash import IN_FMU, KERNEL_PACKAGES, ROOT, USER_EFFECTS, readable, user_effect_files
-from fmu_src.units import UnitError, fmi_base_unit
+from fmu_src.units import UnitError, all_below, fmi_base_unit
 from fmu_src.variables import Variable
 
 # Units that take effects.
@@ -272,13 +272,19 @@ def wrong_unit(v: Variable, frame: Frame) -> str:
     """What is wrong with a variable's unit: kernels get the number as it stands, so it has to be SI."""
     if v.unit in {own.unit for own in frame.own}:
         return ""
+    if (meant := all_below(v.unit)) != v.unit:
+        first, _, rest = meant.replace("(", "").replace(")", "").partition(".")
+        return f"{v.name}: {v.unit} reads as {first} times {rest}; write {meant}"
     try:
         base = fmi_base_unit(v.unit)
     except UnitError as fault:
         return f"{v.name}: {fault}"
     if base.get("factor", 1.0) == 1.0 and base.get("offset", 0.0) == 0.0:
         return ""
-    return f"{v.name}: {v.unit} is no SI unit, and kernels get the number as it stands; declare the SI unit (N.m, m, rad, K, Pa); people may give any other"
+    return (
+        f"{v.name}: {v.unit} is no SI unit, and kernels get the number as it stands; declare the SI unit (N.m, m, rad, K, Pa, m/(N.m));"
+        " people may give any other"
+    )
 
 
 def line_of(tree: ast.Module, name: str) -> int:

@@ -93,6 +93,12 @@ def written(text: str) -> str:
     return f"{over}/({under})" if under != below and "." in under else f"{over}/{under}"
 
 
+def all_below(text: str) -> str:
+    """A quotient with a product behind its stroke in brackets: um/N.m as um/(N.m); other texts as they are."""
+    above, stroke, below = plain(text).partition("/")
+    return f"{above}/({below})" if stroke and "." in below and "/" not in below and "(" not in below else text
+
+
 @cache
 def by_pint(text: str) -> "pint.Unit":
     """UnitError without pint's own words, which speak of its inside."""
@@ -107,13 +113,14 @@ def conversion(source: str, target: str) -> tuple[float, float]:
     """(factor, offset) with target value = factor * source value + offset.
 
     What people write for several units is the one of the target's kind: C is a temperature, but for an electric charge.
+    Of um/N.m all behind the stroke is below it where that fits alone.
     A frequency counts turns: 25 Hz of a shaft are 1500 rpm (to pint, which has radians as numbers, 25 rad/s).
     """
     from pint import DimensionalityError
 
     aim = parse(target)
     ways = [parse(source)]
-    for text in (source, written(source)):
+    for text in (source, written(source), all_below(source)):
         with suppress(UnitError):
             ways.append(by_pint(text))
     for unit in ways:

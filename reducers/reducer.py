@@ -83,6 +83,13 @@ class Reducer:
     worn: dict[str, Worn] = field(default_factory=dict)
     # By name (lowest, highest), SI: numbers that are not known for sure.
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
+    # What people read in place of the name, which files are called by: of a model its file and its name.
+    called: str = ""
+
+    @property
+    def heading(self) -> str:
+        """What a result of it is headed with."""
+        return self.called or self.name
 
     @property
     def is_of_library(self) -> bool:

@@ -118,6 +118,8 @@ class Claim:
     numbers: list[Number]
     grounds: list[tuple[str, bool]]
     figures: list[Figure]
+    # Of which its numbers are, as the library calls them; those that a claim made itself are not among them.
+    reducers: tuple[str, ...] = ()
     # Other numbers than the sources' that it was computed with, and which reducers had what instead.
     altered: tuple[str, ...] = ()
     # The same for what each figure shows, which may be fewer reducers than the numbers are of; empty where nothing was changed.
@@ -184,12 +186,12 @@ def states(identity: str, source: str, title: str, says: str) -> Callable[[Finde
     def register(function: Finder) -> Finder:
         @wraps(function)
         def judge(context: Context) -> Claim:
-            f = function(context)
+            f, reducers = context.reducers_of(function)
             if f.verdict not in VERDICTS or (f.verdict == CONDITIONAL) != bool(f.condition):
                 raise ValueError(f"claim {identity}: verdict {f.verdict!r} with condition {f.condition!r}")
             grounds = [(text, bool(holds)) for text, holds in f.grounds]
             return Claim(
-                identity, source, title, says, f.verdict, f.condition, f.why, f.numbers, grounds, f.figures
+                identity, source, title, says, f.verdict, f.condition, f.why, f.numbers, grounds, f.figures, reducers
             )
 
         REGISTRY[identity] = judge

@@ -89,15 +89,29 @@ class Context:
         # By reducer that was computed with them what it had instead, change by change.
         self.had: dict[str, list[str]] = {}
         self.known: dict[tuple[object, ...], Any] = {}
+        # What was asked for since ``reducers_of`` began, and what each of the runs asked for while it was made.
+        self.asked: set[str] = set()
+        self.asked_by: dict[tuple[object, ...], set[str]] = {}
 
     def once(self, key: tuple[object, ...], make: Callable[[], Made], text: str = "") -> Made:
         """The value of ``key``, made at the first call."""
         if key not in self.known:
             if text:
                 self.progress(text)
-            self.known[key] = make()
+            before, self.asked = self.asked, {str(key[1])} if key[0] == "reducer" else set()
+            try:
+                self.known[key] = make()
+            finally:
+                self.asked_by[key], self.asked = self.asked, before
+        self.asked |= self.asked_by[key]
         made: Made = self.known[key]
         return made
+
+    def reducers_of(self, find: Callable[["Context"], Made]) -> tuple[Made, tuple[str, ...]]:
+        """What ``find`` makes, and of which reducers, as the library calls them; runs that are there already are of the same."""
+        self.asked = set()
+        found = find(self)
+        return found, tuple(sorted(LIBRARY.get(name, name) for name in self.asked))
 
     def reducer(self, name: str) -> Reducer:
         """BX and RV as the sources have them, on rigid supports and without losses; REAL_BX and REAL_RV as the library has them."""

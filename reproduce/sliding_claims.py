@@ -77,8 +77,8 @@ def sliding_shape(context: Context) -> Finding:
                    12, 300, [(g.inflection, "inflection"), (360.0 - g.inflection, "inflection")], degrees_axis(360.0))
     probe = g.sliding([2.0, g.inflection, 90.0, 179.0]) / g.travel([2.0, g.inflection, 90.0, 179.0])
     return Finding(
-        CONTRADICTED, "Sliding speed is monotonic; the sliding length of a material point is one hump per flank. At"
-        " the"
+        CONTRADICTED, "Sliding speed is monotonic. v_s/v_c is its ratio to the speed of the contact along the flank, and no speed; it makes the sliding"
+        " length of a material point, one hump per flank. At the"
         " inflection the flank slides as far as the contact travels. An 'M' appears only over a whole tooth loaded"
         " both ways, and its valley is the tip.",
         [Number("v_s/v_c at 2°", "1", probe[0], None, 0.04, 0.3),

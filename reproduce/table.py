@@ -69,7 +69,8 @@ def print_table(claims: list[Claim]) -> None:
         verdict = claim.told if claim.stands else f"{claim.told} (was: {claim.verdict})"
         condition = f"{claim.condition}. " if claim.condition else ""
         condition = f"Condition: {condition}" if condition else ""
-        table.add_row(claim.id, claim.title, Text(verdict, STYLES[claim.outcome]), condition + claim.cause)
+        of = f"\nof {', '.join(claim.reducers)}" if claim.reducers else ""
+        table.add_row(claim.id, f"{claim.title}{of}", Text(verdict, STYLES[claim.outcome]), condition + claim.cause)
     console.print(table)
     if any(claim.held for claim in claims):
         console.print(figures_table(claims))
@@ -123,7 +124,7 @@ def claim_data(c: Claim) -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "id": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.verdict, "told": c.told,
-        "condition": c.condition,
+        "reducers": list(c.reducers), "condition": c.condition,
         "why": c.cause, "stands": c.stands, "numbers": numbers,
         "grounds": [{"text": text, "holds": holds} for text, holds in c.grounds],
     }  # fmt: skip
@@ -139,11 +140,14 @@ def plain(value: Audited | None) -> float | list[float] | None:
 def tables_of(claims: list[Claim]) -> list[Export]:
     """Verdicts, and every number computed, published, printed and checked, for other programs."""
     verdicts = [
-        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.told, "condition": c.condition, "why": c.cause} for c in claims
+        {"claim": c.id, "source": c.source, "title": c.title, "says": c.says, "verdict": c.told, "condition": c.condition, "why": c.cause,
+         "reducers": ", ".join(c.reducers)}
+        for c in claims
     ]  # fmt: skip
     numbers = [
         {"claim": c.id, "number": n.label, "unit": n.unit, "computed": nan(n.value), "low": nan(n.low), "high": nan(n.high), "theirs": span_text(n.published),
-         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.told, "cause": c.cause}
+         "printed_formula": nan(n.printed), "independent_check": audited_text(n), "verdict": c.told, "cause": c.cause,
+         "reducers": ", ".join(c.reducers)}
         for c in claims for n in c.numbers
     ]  # fmt: skip
     return [rows_table("numbers", numbers, {}), rows_table("verdicts", verdicts, {}), *(curves_of(figure) for claim in claims for figure in claim.figures)]
@@ -152,8 +156,8 @@ def tables_of(claims: list[Claim]) -> list[Export]:
 def holdings(claims: list[Claim]) -> dict[str, str]:
     """What each of these tables holds, by its name."""
     return {
-        "numbers": "numbers of the claims, a row each: computed, range, theirs, printed formula, independent check, verdict and cause",
-        "verdicts": "the claims, a row each: what the source says, verdict, condition and why",
+        "numbers": "numbers of the claims, a row each: computed, range, theirs, printed formula, independent check, verdict, cause and of which reducers",
+        "verdicts": "the claims, a row each: what the source says, verdict, condition, why and of which reducers",
     } | {figure.name: f"curves of \"{figure.title}\", a row a point" for claim in claims for figure in claim.figures}
 
 

@@ -92,7 +92,7 @@ def compare(reducer: Reducer, settings: list[Setting], factors: list[float], hou
     for name, speed, torque in wanted:
         progress(name)
         points.append(compare_point(reducer, settings, name, speed, torque, hours, cycles))
-    return Comparison(reducer.name, hours, limit, lowest, points)
+    return Comparison(reducer.heading, hours, limit, lowest, points)
 
 
 def passing_frequency(pair: Pair) -> float:

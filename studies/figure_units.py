@@ -8,6 +8,7 @@ FIGURE_UNITS = {
 # Two stiffnesses of one reducer: what friction holds is none of the running one's.
 RUNNING = "stiffness: running, between half and all of the torque; with the input held, rvwear hysteresis"
 HELD = "stiffness: input held, loading, between half and all of the torque; running, rvwear solve"
+HELD_IN_LIVES = "lost motion: input held, mean over a crank turn, as rvwear hysteresis reads it"
 # Two widths of one loop likewise.
 WIDTHS = "loop width: at no torque, the way through the clearances in it; its mean between 3 % and half of the torque is what rvwear compare shows"
 
@@ -20,6 +21,7 @@ WINDOW = "over one crank turn, where the output then stands"
 WHAT_IS_OVER_TURN = "TE p-p (transmission error): over one turn of the output; force, teeth, lag and stiffness: " + WINDOW
 OF_LIVES = {name: f"transmission error peak to peak, {which}, {WINDOW}" for name, which in WHICH_ERROR.items()} | {
     OVER_TURN: "transmission error peak to peak, whole, against the input, over one turn of the output; between first and last hour as the jumps show it",
+    "lost_motion_arcmin": HELD_IN_LIVES,
 }  # fmt: skip
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault
 from rv_plant.faults import DYNAMIC
+from studies.held_input import lost_motion
 from studies.meshing_cycle import HOUR, drift_of, run_cycle, swing_over_turn
 from studies.pair import Pair
 from studies.solve import Turn, measure
@@ -113,7 +114,7 @@ class Life:
         self.hours.append(float(record["operating_time"][0]) / HOUR)
         self.surfaces.append({name: record[name][0].copy() for name in SURFACES})
         self.turns.append(turn)
-        self.figures.append(figures | wear_figures(record))
+        self.figures.append(figures | {"lost_motion_arcmin": lost_motion(pair)} | wear_figures(record))
         # Unknown until the run is held against a coarser one.
         self.errors.append(math.nan)
 

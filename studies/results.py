@@ -73,9 +73,9 @@ def life_dataset(pair: Pair, life: Life, orders: list[xr.Dataset], inputs: dict[
         "pin_phase": ("pin_bin", bin_middles(variables["pin_wear"].shape[-1], -90.0, 90.0), {"units": "deg"}),
         "race_phase": ("race_bin", bin_middles(variables["inner_race_wear"].shape[-1], 0.0, 360.0), {"units": "deg"}),
     }
-    record = {"reducer": pair.reducer.name, "plant": parameters_of(pair.plant), "wear": parameters_of(pair.wear)}
+    record = {"reducer": pair.reducer.heading, "plant": parameters_of(pair.plant), "wear": parameters_of(pair.wear)}
     attributes: dict[str, Any] = dict(provenance(inputs | {"parameters": record, "sources": pair.reducer.sources}))
-    attributes |= {"title": f"wear of {pair.reducer.name} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
+    attributes |= {"title": f"wear of {pair.reducer.heading} over {life.hours[-1]:g} h", "cycles_simulated": life.cycles}
     return xr.Dataset(variables, coordinates, attributes).assign(spectra.data_vars).assign_coords(spectra.coords)
 
 

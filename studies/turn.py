@@ -43,7 +43,7 @@ class CrankTurn:
         figures = {name: ((), value, {"units": figure_unit(name)}) for name, value in self.figures.items()}
         angle = np.degrees(self.turn["crank_angle"]).reshape(-1)
         coordinates = {"crank_angle": ("position", angle, {"units": "deg", "long_name": "angle of the cranks"})}
-        return xr.Dataset(variables | figures, coordinates, {"title": f"{self.reducer.name} over one crank turn", "reducer": self.reducer.name})
+        return xr.Dataset(variables | figures, coordinates, {"title": f"{self.reducer.heading} over one crank turn", "reducer": self.reducer.name})
 
     def variable(self, name: str) -> xr.Variable:
         found = self.reducer.plant.by_name[name]
@@ -99,4 +99,4 @@ def loop_dataset(reducer: Reducer, loop: Hysteresis) -> xr.Dataset:
         "torque": ("step", loop.torque, {"units": "N.m", "long_name": "torque on the output"}),
         "turning": ("step", loop.turning, {"units": "arcmin", "long_name": "turning of the output, input locked"}),
     }
-    return xr.Dataset(curve | figures, attrs={"title": f"{reducer.name}: torque up and down, input locked", "reducer": reducer.name})
+    return xr.Dataset(curve | figures, attrs={"title": f"{reducer.heading}: torque up and down, input locked", "reducer": reducer.name})

@@ -9,6 +9,7 @@ import pytest
 from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
 
 from cli.main import main
+from cli.show.guessed_runs import in_one
 from discrepancy.campaign.guess.conditions import joined
 from discrepancy.campaign.guess.file_names import proposed
 from discrepancy.campaign.guess.given_names import by_pattern
@@ -173,4 +174,21 @@ def test_long_names_of_runs_are_not_cut(tmp_path, capsys):
     assert main(["campaign", "from", str(tmp_path), "--dry-run", "--reducer", "RV20E-121"]) in (0, 1)
     shown = capsys.readouterr().out
     rows = "".join(line.split("│")[1].strip() for line in shown.splitlines() if line.startswith("│"))
-    assert "…" not in shown and all(f"Error_de_transmisión_del_banco_de_ensayo_100_Nm_600_rpm_medida_{k}" in rows for k in (1, 2))
+    assert "…" not in shown and "Error_de_transmisión_del_banco_de_ensayo_100_Nm_600_rpm_medida_1, 2" in rows
+
+
+def test_repetitions_share_a_row_and_a_unit_is_said_once(tmp_path, capsys):
+    """Sixteen runs took forty lines with names on two of them, and a unit stood there twice with where it is from."""
+    names = [f"Drehfehler_{load}Nm_1450_U_min_Versuch_{k}" for load in (50, 100) for k in (1, 2, 10)]
+    error_files(tmp_path, *names, "Drehfehler_150Nm_1450_U_min")
+    loop_files(tmp_path, *(f"Hysterese_Eingang_blockiert_90deg_Versuch_{k}" for k in (1, 2, 3, 4)), "Hysterese_warm_1")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run"]) == 0
+    out = capsys.readouterr().out
+    rows = [" ".join(line.strip("│").split("│")[0].split()) for line in out.splitlines() if line.startswith("│")]
+    assert rows == [
+        "transmission_error:", "Drehfehler_100Nm_1450_U_min_Versuch_1, 2, 10", "Drehfehler_150Nm_1450_U_min", "Drehfehler_50Nm_1450_U_min_Versuch_1, 2, 10",
+        "hysteresis:", "Hysterese_Eingang_blockiert_90deg_Versuch_1 to 4", "Hysterese_warm_1",
+    ]  # fmt: skip
+    said = " ".join(out.split())
+    assert "column 'Drehfehler [arcsec]', its name says error, unit arcsec ([arcsec] in its header)" in said and said.count("[arcsec] in its header") == 1
+    assert in_one(["te_1_a", "te_2_a"]) == "" and in_one(["te_1", "te_12"]) == "te_1, 12" and in_one(["laufA", "laufB"]) == "laufA, B"

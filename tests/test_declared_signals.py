@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[1]
     ("support_compliance", ("hysteresis", "lost_motion"), ["signals lack torsional_stiffness (by"]),
     ("support_compliance", ("cage_speed",), ["signals lack hysteresis (by", "none of its signals is changed by more than noise"]),
     # What is not judged may show it; what declares nothing is looked for everywhere.
-    ("unbalance", ("vibration", "temperature"), []), ("support_compliance", (), []),
+    ("unbalance", ("vibration", "hysteresis"), ["signals have hysteresis, changed by nothing"]), ("unbalance", ("vibration",), []), ("support_compliance", (), []),
     # An effect of wear shows in wear; an effect of a rig whose output is locked in its loops.
     ("load_exponent", ("wear_depth",), ["signals lack wear_profile (by"]), ("drive_friction", ("hysteresis", "input_torque", "efficiency"), []),
 ])  # fmt: skip
@@ -71,7 +71,7 @@ def test_what_is_declared_and_not_judged_stands_in_the_table(capsys):
     effect = every_effect()["unbalance"]
     show_signals(Entry("unbalance", replace(effect, signals=("vibration", "hysteresis")), "plant", ()), {"hysteresis": Change("hysteresis")})
     said = " ".join(capsys.readouterr().out.split())
-    assert "vibration yes not judged" in said and "doubtful:" not in said and "unless it declares what is not judged, as here vibration" in said
+    assert "vibration yes not judged" in said and "doubtful: none" not in said and "doubtful: signals have hysteresis, changed by nothing" in said and "unless it declares what is not judged, as here vibration" in said
 
 
 def test_the_check_of_an_own_effect_doubts_signals_that_it_does_not_change(tmp_path, capsys):

@@ -222,6 +222,7 @@ def test_a_mistyped_signal_is_refused_where_it_stands_before_anything_is_compile
     ('"state", 0.0', '"state", "zero"', 10, "variable my_state: start = 'zero' is no number"),
     ('"my_size", "1"', '"my_size", "Nmm"', 9, "my_size: Nmm is no SI unit, and kernels get the number as it stands; declare the SI unit"),
     ('"my_size", "1"', '"my_size", "arcmin"', 9, "my_size: arcmin is no SI unit"),
+    ('"my_size", "1"', '"my_size", "m/N.m"', 9, "my_size: m/N.m reads as m/N times m; write m/(N.m)"),
     ("0.0, 1.0)", "0.0, None)", 9, "variable my_size: maximum = None is no number"),
     ("EFFECT =", "EFECT =", 1, "no EFFECT"),
     ("EFFECT = Effect(", "EFFECT = print(", 7, "TypeError"),

@@ -8,6 +8,7 @@ import pytest
 import rvwear
 from cli.main import main, parser
 from discrepancy.key_figures import LOST_MOTION, WIDTH, of_loop
+from discrepancy.named_reducer import named_reducer
 from orchestrator.settings import parse_setting
 from reducers.reducer import load_reducer
 from reproduce.context import Context
@@ -132,3 +133,13 @@ def test_a_stiffness_of_rigid_supports_says_so(capsys):
         assert " ".join(rigid_supports(rigid).split()) in " ".join(capsys.readouterr().out.split())
     assert main(["solve", "--positions", "8", "--reducer", "RV20E-121"]) == 0
     assert "no support yields" not in capsys.readouterr().out
+
+
+def test_results_of_a_model_are_headed_as_a_comparison_with_it_is(tmp_path, capsys):
+    """One thing was "RV20E-121-better" on the screen and better.toml (RV20E-121) in compare; files keep names that are fit for files."""
+    path = tmp_path / "better.toml"
+    path.write_text('[model]\nname = "RV20E-121"\nreducer = "RV20E-121"\n[effects.needle_clearance]\nadded = "2.1 um"\n', encoding="utf-8")
+    assert main(["hysteresis", "--reducer", str(path), "--steps", "4", "--angles", "1"]) == 0
+    assert capsys.readouterr().out.startswith("better.toml (RV20E-121): torque up and down")
+    reducer = named_reducer(path)
+    assert (reducer.name, reducer.heading) == ("RV20E-121-better", "better.toml (RV20E-121)") and named_reducer("BX-40E").heading == "BX-40E"

@@ -8,11 +8,13 @@ import pytest
 from cli.show.life import telling
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.progress import told_to
-from orchestrator.settings import Setting
+from orchestrator.settings import Setting, parse_setting
 from studies.checkpoint import load_checkpoint, save_checkpoint
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.figure_units import OVER_TURN
+from studies.held_input import lost_motion
+from studies.hysteresis import hysteresis
 from studies.kept_life import WantedLife, whole_life
 from studies.life import Life, LifeSettings, live
 from studies.meshing_cycle import HOUR, run_cycle
@@ -242,3 +244,11 @@ def test_a_life_that_begins_again_says_why():
         "too much wear in one jump of 6: again from 0 h, in 12 jumps",
     ]
     assert len(lines) == 6
+
+
+def test_a_life_tells_the_lost_motion_of_the_stiffness_test(rv20e, short):
+    """The catalogue's figure stood nowhere in a life; the surfaces wear it up, and of a new reducer it is what the test reads."""
+    lost = [figures["lost_motion_arcmin"] for figures in short.figures]
+    assert lost[0] == pytest.approx(hysteresis(rv20e, []).lost_motion_arcmin, rel=2e-3) and all(np.diff(lost) > 0.0)
+    pair = make_pair(rv20e, [parse_setting("output.load_torque=0", [rv20e.plant])])
+    assert np.isnan(lost_motion(pair))

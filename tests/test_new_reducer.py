@@ -70,7 +70,7 @@ def test_what_the_catalogue_asked_for_is_counted_as_found_and_given_by_nobody(tm
     assert main(["reducer", "new", *options, "--output", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
     given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output (as usual), 16 rollers a bearing (as usual), lost motion 1 arcmin"
-    assert f"given: {given}, torsional stiffness 108 N.m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
+    assert f"given: {given}, torsional stiffness 108 N m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
     assert "2 were looked for to meet the catalogue (disc.equidistant_modification, crank.support_compliance), " in said
     assert main(["reducer", "check", str(path)]) == 0
     told = capsys.readouterr().out
@@ -85,7 +85,7 @@ def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_
     catalogue, note = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--output", str(tmp_path / "mine.toml"), "--overwrite"], "scatters by a third"
     assert main([*catalogue, "--stiffness", "392", "--known", "disc.equidistant_modification=3.253um"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "torsional stiffness 392 N.m/arcmin, disc.equidistant_modification 3.253 um; of the file's" in said and note not in said
+    assert "torsional stiffness 392 N m/arcmin, disc.equidistant_modification 3.253 um; of the file's" in said and note not in said
     assert main([*catalogue, "--known", "carrier.compliance=2e-7rad/(N.m)", "--known", "mesh.friction=0.05"]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "carrier.compliance 0.000687549 arcmin/(N.m), mesh.friction 0.05; of" in said and note in said
@@ -279,7 +279,10 @@ def test_nothing_is_overwritten_unless_told(tmp_path, capsys):
 
 
 def test_a_ring_that_does_not_fit_the_torque_is_doubtful():
-    assert "usual (cycloid handbooks): look at both" in complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    far = complete(Given(81, 40, 1600.0, 150.0)).doubts[0]
+    assert "made as 0.363 times the outer diameter of 150 mm" in far and "usual (cycloid handbooks): look at --rated and --diameter, and at their units" in far
+    given = complete(Given(81, 40, 1600.0, known={"pin.circle_radius": 54.5})).doubts[0]
+    assert "usual (cycloid handbooks): look at both" in given and "made" not in given
     assert complete(Given(81, 40, 1600.0)).doubts == [] and complete(Given(81, 40, 1600.0, known={SUN: 18})).doubts == []
 
 
@@ -477,7 +480,7 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
     monkeypatch.chdir(tmp_path)
     words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", "167", "--diameter", "145", "--name", "m"]
     assert main([*words, "--stiffness", "50Nm/arcmin"]) == 0
-    assert "um/kN makes the torsional stiffness that of the catalogue, 50 N.m/arcmin" in " ".join(capsys.readouterr().out.split())
+    assert "um/kN makes the torsional stiffness that of the catalogue, 50 N m/arcmin" in " ".join(capsys.readouterr().out.split())
     made = load_reducer("m.toml")
     assert made.sources["crank_seat_compliance"] == "found: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
     assert hysteresis(made, []).stiffness_Nm_per_arcmin == pytest.approx(50.0, rel=2e-3)

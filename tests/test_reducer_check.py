@@ -159,7 +159,7 @@ def test_a_completed_file_is_held_against_its_catalogue(tmp_path, capsys):
     capsys.readouterr()
     assert main(["reducer", "check", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "of the catalogue: torsional stiffness 60 N.m/arcmin asked, 60 reached; lost motion 0.8 arcmin asked, 0.80" in said and "misses" not in said
+    assert "of the catalogue: torsional stiffness 60 N m/arcmin asked, 60 reached; lost motion 0.8 arcmin asked, 0.80" in said and "misses" not in said
     # Somebody measured the clearance.
     text = re.sub(r'(?m)^clearance = .*$', 'clearance = { value = 4.0, unit = "um", source = "measured" }', path.read_text(encoding="utf-8"))
     path.write_text(text, encoding="utf-8")
@@ -191,3 +191,21 @@ def test_a_completed_file_is_drawn_with_its_housing_as_when_it_was_made(tmp_path
         assert length["text"] == f"{max(x) - min(x):g} mm" and 0.05 < (max(x) - min(x)) / np.ptp(figure.layout["xaxis"]["range"]) <= 0.2
     # Nobody knows that of a file without one.
     assert len(parts(check(load_reducer(MINE)))[0].data) == len(made.data) - 1
+
+
+def test_a_ring_made_of_a_diameter_is_doubted_as_such_and_of_what_its_lost_motion_is_read_is_said(tmp_path, capsys):
+    """Of the program's own choice it was said to look at its unit, and two positions read 0.95 where sixteen read 1."""
+    path, doubt = tmp_path / "own.toml", "pin.circle_radius = 80.66 mm, made as 0.363 times the outer diameter of 222 mm, is 0.841 times the cube root"
+    words = ["reducer", "new", "--ratio", "121", "--rated", "882", "--stiffness", "221", "--lost-motion", "1", "--diameter", "222", "--output", str(path)]
+    assert main(words) == 0
+    first = " ".join(capsys.readouterr().out.split())
+    assert main(["reducer", "check", str(path)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    for text in (first, said):
+        assert doubt in text and "here from 81.52 mm on: measure the radius and give --known pin.circle_radius=..., or look at --rated and --diameter" in text
+    assert "1 reached; as rvwear hysteresis reads them, means of 16 positions" in said and "and at their units" not in said
+    for angles, note in (("2", True), ("16", False)):
+        assert main(["hysteresis", "--reducer", str(path), "--steps", "4", "--angles", angles]) == 0
+        assert ("fewer positions, other figures: rvwear reducer check takes the mean of 16" in " ".join(capsys.readouterr().out.split())) is note
+    assert main([*words, "--known", "pin.circle_radius=80.66mm", "--overwrite"]) == 0
+    assert "look at both, and at their units" in " ".join(capsys.readouterr().out.split())

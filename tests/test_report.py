@@ -105,7 +105,7 @@ def test_every_section_and_figure_is_there(page):
 def test_cards_say_what_the_dataset_says(page, dataset):
     pattern = r'data-figure="(\w+)" data-start="([^"]+)" data-end="([^"]+)".*?class="from">(.*?)<.*?class="to">(.*?)<'
     cards = re.findall(pattern, page, re.DOTALL)
-    assert len(cards) == 10 and "Torsional stiffness, running" in page and "with the input held, rvwear hysteresis" in page
+    assert len(cards) == 11 and "Torsional stiffness, running" in page and "with the input held, rvwear hysteresis" in page
     assert "transmission_error_over_turn_pp_arcsec" in {name for name, *_ in cards} and "second stage alone" in page
     for name, start, end, start_text, end_text in cards:
         assert float(start) == dataset[name].values[0] and float(end) == dataset[name].values[-1]

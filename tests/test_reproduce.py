@@ -331,7 +331,7 @@ def test_a_page_of_some_claims_or_of_other_numbers_does_not_take_the_place_of_th
 
 def test_a_figure_says_what_was_set_and_whether_that_moved_it():
     changes = ["crank.eccentricity=1mm (BX-40E had 1.3 mm)"]
-    assert note_of(changes).endswith("what these carry need not hold") and note_of(changes, is_moved=False).endswith("nothing here is moved by that")
+    assert note_of(changes).endswith("conclusions drawn from those need not hold") and note_of(changes, is_moved=False).endswith("nothing here is moved by that")
     # One to scale has no axis to write below.
     (claim,) = run(["T05"])
     noted = noted_figure(claim.figures[0], note_of(changes))
@@ -376,3 +376,14 @@ def test_what_cannot_be_is_said_before_the_work(capsys, monkeypatch, tmp_path, o
     assert main(["reproduce", "T01", *options]) == 2
     told = capsys.readouterr()
     assert said in told.err and "T01" not in told.err
+
+
+def test_a_claim_says_of_which_reducers_its_numbers_are(capsys):
+    """Nothing named them unless a number was changed; a run that another claim made before is of the same."""
+    first, second = run(["T23", "T24"])
+    (alone,) = run(["T24"])
+    assert first.reducers == second.reducers == alone.reducers == ("BX-40E-rigid",)
+    assert as_json([alone])["claims"][0]["reducers"] == ["BX-40E-rigid"] and set(tables_of([alone])[0].frame()["reducers"]) == {"BX-40E-rigid"}
+    assert "Numbers of BX-40E-rigid." in page_of([alone])
+    print_table([alone])
+    assert "of BX-40E-rigid" in capsys.readouterr().out and "and no speed" in alone.cause

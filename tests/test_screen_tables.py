@@ -97,7 +97,7 @@ def test_runs_of_a_proposal_break_names_where_their_words_end(capsys, tmp_path):
         pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN}).to_csv(tmp_path / name, index=False)
     guesses.show(propose([tmp_path], Wishes("RV20E-121")))
     told = capsys.readouterr().out
-    assert "│ RV20E-121_serial_00417_ " in told and f" three_{LOCKED}_with_ " in told and told.count(" the_new_encoder_on_the_output │") == 2
+    assert "│ RV20E-121_serial_00417_bench_three_ │" in told and f" three_{LOCKED}_with_ " in told and told.count(" the_new_encoder_on_the_output │") == 2
 
 
 @pytest.mark.parametrize(("name", "width", "lines"), [

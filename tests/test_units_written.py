@@ -18,6 +18,7 @@ INCH_POUND = 0.1129848290276167
 
 @pytest.mark.parametrize("unit, target, factor", [
     ("in-lbf", "N.m", INCH_POUND), ("lb-in", "N.m", INCH_POUND), ("ft-lb", "N.m", 12 * INCH_POUND), ("in-lbf/arcmin", "N.m/arcmin", INCH_POUND), ("um/Nm", "m/(N.m)", 1e-6),
+    ("um/N.m", "m/(N.m)", 1e-6), ("um/N m", "m/(N.m)", 1e-6), ("arcmin/N·m", "rad/(N.m)", math.radians(1.0 / 60.0)), ("um/N.m", "m^2/N", 1e-6),
     ("in-lbf/degree", "N.m/degree", INCH_POUND), ("U/min", "rpm", 1.0), ("krpm", "rpm", 1000.0), ("N m", "N.m", 1.0), ("Grad", "deg", 1.0), ("kgf.m", "N.m", 9.80665),
     # A word for several units is that of the kind that is needed.
     ("C", "A.s", 1.0), ("kg.m", "N.m", 9.80665),

@@ -296,3 +296,15 @@ def test_the_command_says_what_is_missing(tmp_path):
     environment = os.environ | {"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"}
     ended = subprocess.run([sys.executable, "-m", "cli", "workbench", str(tmp_path)], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60)
     assert ended.returncode == 2 and 'pip install "rvwear[workbench]"' in ended.stderr
+
+
+def test_the_pattern_of_a_family_of_names_holds_no_angle_of_one_file(bench):
+    """That of the first file stood there as if it were all files': "Eingang blockiert 210°"."""
+    bench.page.goto(bench.address)
+    told = bench.page.evaluate("""async () => {
+      const { familyPattern } = await import('./static/in_names.js');
+      const runs = (word, ...numbers) => numbers.map((n) => ({ names: `${word} ${n}° Versuch {replicate}`, condition: `at ${n}` }));
+      const locked = { "at 210": { locked_at: "210 deg" }, "at 90": { locked_at: "90 deg" } };
+      return [runs("blockiert", 210, 90), runs("blockiert", 210), runs("warm", 210, 30)].map((some) => familyPattern(some, locked));
+    }""")
+    assert told == ["blockiert {locked_at}° Versuch {replicate}", "blockiert 210° Versuch {replicate}", "warm 210° Versuch {replicate}"]

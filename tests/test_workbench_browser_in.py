@@ -172,7 +172,7 @@ def test_a_guess_that_is_right_is_stated_by_a_click_and_saving_says_what_stands_
     assert "what else is not sure above is taken as it stands" in told.inner_text()
     # A unit, a tag, and the angles that names hold.
     page.get_by_role("button", name=re.compile("so it is: Lage is value")).click()
-    page.locator("td.reason", has_text="unit: given").wait_for()
+    page.locator("td.reason", has_text="(given: ").wait_for()
     page.get_by_role("button", name="so it is: locked input").click()
     page.get_by_role("button", name="so it is: locked input").wait_for(state="detached")
     assert page.get_by_placeholder("40 deg?").count() == 1

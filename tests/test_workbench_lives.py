@@ -53,6 +53,7 @@ def test_a_life_says_which_stiffness_it_shows():
     shown = curves([0.0], [{name: 1.0 for _, _, lines in PANES for name, _ in lines}])
     assert "running, between half and all of the torque; with the input held" in shown["how"]
     assert [line["name"] for line in shown["panes"][-1]["lines"]] == ["running stiffness"]
+    assert [line["name"] for line in shown["panes"][-2]["lines"]] == ["lost motion"] and "lost motion: input held, mean over a crank turn" in shown["how"]
 
 
 def test_a_life_that_runs_says_which_pass_it_is_and_why_in_the_words_of_the_terminal():

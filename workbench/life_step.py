@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.faults import InputFault
 from fmu_src.file_name import file_name
 from fmu_src.held_file import held
-from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
+from studies.figure_units import HELD_IN_LIVES, OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from workbench.folder import Folder
 from workbench.form import SPEED, exactly, in_unit, number
 from workbench.told import write_json
@@ -21,6 +21,7 @@ PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
     ("lag over a crank turn", "arcsec", (("mean_lag_arcsec", "lag"),)),
     ("transmission error p-p", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
+    ("lost motion, input held", "arcmin", (("lost_motion_arcmin", "lost motion"),)),
     ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Until the life ends nobody goes round a turn of the output at the hour that was reached.
@@ -87,7 +88,7 @@ def so_far(state: "Life", ended: bool) -> dict[str, Any]:
 def curves(hours: list[float], figures: list[dict[str, float]]) -> dict[str, Any]:
     """Of each pane its lines over the hours, and over what they are read."""
     return {
-        "hours": list(hours), "how": f"{WHAT_IS_OVER_TURN}; {RUNNING}",
+        "hours": list(hours), "how": f"{WHAT_IS_OVER_TURN}; {RUNNING}; {HELD_IN_LIVES}",
         "panes": [{"title": title, "unit": unit, "lines": [{"name": text, "values": [f[name] for f in figures]} for name, text in lines]}
                   for title, unit, lines in PANES],
     }  # fmt: skip

@@ -56,7 +56,7 @@ def bench_test(options: argparse.Namespace) -> int:
         except InputFault as fault:
             raise InputFault(": ".join(filter(None, (options.measured, condition, str(fault))))) from None
     count = sum(len(group) for group in curves.values())
-    show_bench(reducer.name, test, found, rated, ratio, count, options.measured, options.json, unread)
+    show_bench(reducer.heading, test, found, rated, ratio, count, options.measured, options.json, unread)
     write_exports(options, lambda: bench_tables(found, curves), list)
     return 0
 

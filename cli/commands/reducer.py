@@ -60,7 +60,7 @@ def solve(options: argparse.Namespace) -> int:
     if options.json:
         screen.json_text({"reducer": reducer.name, "positions": positions} | found.figures | beyond)
     else:
-        screen.figures(f"{reducer.name} over one crank turn{effects_set(reducer, settings)}", found.figures, how=RUNNING)
+        screen.figures(f"{reducer.heading} over one crank turn{effects_set(reducer, settings)}", found.figures, how=RUNNING)
         say_rigid(rigid_supports(reducer, settings))
     export(options, found.dataset)
     return 0
@@ -73,6 +73,7 @@ def hysteresis(options: argparse.Namespace) -> int:
     from cli import screen
     from studies.effects_set import effects_set
     from studies.figure_units import HELD, WIDTHS
+    from studies.hysteresis import ANGLES
     from studies.hysteresis import hysteresis as measure
     from studies.rigid import rigid_supports
     from studies.turn import loop_dataset, loop_figures
@@ -90,8 +91,9 @@ def hysteresis(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name} | figures | curve | beyond)
     else:
         where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
-        about = f"{reducer.name}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
-        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{counted_from(options.reducer)}")
+        about = f"{reducer.heading}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
+        few = f"fewer positions, other figures: rvwear reducer check takes the mean of {ANGLES}\n" if at is None and options.angles < ANGLES else ""
+        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{few}{counted_from(options.reducer)}")
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
@@ -149,7 +151,7 @@ def modes(options: argparse.Namespace) -> int:
         screen.json_text({"reducer": reducer.name} | ({"cases": told} if options.every else told[0]) | beyond)
     else:
         for (held, loaded), some in found.items():
-            about = f"{reducer.name}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}{effects_set(reducer, settings)}"
+            about = f"{reducer.heading}: {'under load' if loaded else 'no load'}, input {'held' if held else 'free'}{effects_set(reducer, settings)}"
             show_modes(about, some)
     if options.export:
         from studies.turn import mode_table

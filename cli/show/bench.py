@@ -35,7 +35,7 @@ def show_bench(
     names = [head for head in columns if head == "condition"]
     fill(table, columns, out.width - screen.BETWEEN_LINES * len(columns) - screen.EDGE, names, spread, ["value", *spread])
     out.print(table)
-    out.print(f"rated torque {rated:g} N.m, ratio {ratio:g}, {curves} {'curve' if curves == 1 else 'curves'}")
+    out.print(f"rated torque {rated:g} N m, ratio {ratio:g}, {curves} {'curve' if curves == 1 else 'curves'}")
     for condition, own in unread.items():
         for name, why in own.items():
             out.print(screen.styled((f"{name} is not read", "yellow"), f"{f' of {condition}' if condition else ''}: {why}"))

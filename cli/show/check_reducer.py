@@ -8,6 +8,7 @@ from reducers.completion.again import STIFF
 from reducers.completion.complete import COMPLETED, LEAST, MEETS
 from reducers.completion.known import FROM_OPTIONS
 from studies.catalogue_targets import Target
+from studies.hysteresis import ANGLES
 
 
 def show(found: Check, targets: Sequence[Target]) -> None:
@@ -26,7 +27,7 @@ def show(found: Check, targets: Sequence[Target]) -> None:
     f = found.figures
     out.print(f"ratio {f['ratio']:.4g}, K1 = {f['K1']:.3f}, K2 = {f['K2']:.3f}, pins of up to {f['largest_pin_mm']:.4g} mm radius without undercut")
     if targets:
-        out.print(f"of the catalogue: {'; '.join(target.words for target in targets)}")
+        out.print(f"of the catalogue: {'; '.join(target.words for target in targets)}; as rvwear hysteresis reads them, means of {ANGLES} positions")
     for text in found.doubts:
         out.print(styled(("doubtful: ", "yellow"), text))
     for text in found.faults:

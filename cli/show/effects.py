@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from discrepancy.catalogue.declared_signals import Change
     from discrepancy.catalogue.signature import Signature
 
-# Times a usual bench's noise, from which a change is told.
-LEAST_RATIO = 0.01
 
 
 def show_list(entries: list[Entry], word: str | None = None) -> None:
@@ -67,7 +65,7 @@ def show_one(entry: Entry, found: "list[Signature]", reducer: str) -> None:
 
 def show_signals(entry: Entry, changes: "Mapping[str, Change]") -> None:
     """What an own effect changes of each signal of a campaign, as ``--check`` judges its file: other conditions, another reducer, and a bench's noise."""
-    from discrepancy.catalogue.declared_signals import STANDS_OUT, doubts_in, not_judged, reducer_for
+    from discrepancy.catalogue.declared_signals import LEAST_RATIO, STANDS_OUT, doubts_in, not_judged, reducer_for
     from discrepancy.prediction.candidates import shown_by
 
     declared, out = shown_by(entry.effect), console(WIDTH)
@@ -88,8 +86,9 @@ def show_signals(entry: Entry, changes: "Mapping[str, Change]") -> None:
     for doubt in doubts_in(entry.effect, changes):
         out.print(f"doubtful: {doubt}")
     but = f", unless it declares what is not judged, as here {', '.join(unseen_here)}" if unseen_here else ""
-    out.print(f"Doubtful for --check: what is not declared and changed by more than {STANDS_OUT:g} times the noise, and where nothing that is declared is"
-              f" changed by more than it{but}. A mean of transmission errors or of a loop is no change here, for nobody knows the zero of an angle.")
+    out.print(f"Doubtful for --check: what is not declared and changed by more than {STANDS_OUT:g} times the noise, what is declared and changed by nothing,"
+              f" and where nothing that is declared is changed by more than the noise{but}. A mean of transmission errors or of a loop is no change here, for"
+              " nobody knows the zero of an angle.")
 
 
 def unseen(entry: Entry, signature: "Signature") -> str:

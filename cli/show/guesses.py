@@ -2,10 +2,8 @@
 
 from collections.abc import Sequence
 
-from rich.table import Table
-
-from cli.columns import fill
-from cli.screen import BETWEEN_LINES, EDGE, WIDTH, console, styled
+from cli.screen import WIDTH, console, styled
+from cli.show.guessed_runs import table_of
 from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.in_columns import said_by_columns
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
@@ -22,20 +20,14 @@ ONE_ZERO = (
 def show(proposal: Proposal, findings: Sequence[Finding] = (), reducer_given: bool = False) -> None:
     """Runs, what each column was taken for and why, conditions, what is not sure, ``findings`` in what was read, what is needed."""
     out = console(WIDTH)
-    table = Table(title=f"{proposal.name}: {len(proposal.runs)} run{'s' * (len(proposal.runs) != 1)}", title_justify="left")
-    columns = {
-        "run": [run.name for run in proposal.runs], "quantity": [run.guessed.quantity.value for run in proposal.runs],
-        "condition": [run.condition for run in proposal.runs], "repetition": [str(run.replicate.value) for run in proposal.runs],
-    }  # fmt: skip
-    fill(table, columns, out.width - BETWEEN_LINES * len(columns) - EDGE, ["run", "condition"])
-    out.print(table)
+    out.print(table_of(proposal.name, proposal.runs, out.width))
     seen = set()
     for run in proposal.runs:
         if (key := columns_key(run)) not in seen:
             seen.add(key)
             out.print(f"{run.guessed.quantity.value}, as in {run.guessed.path.name} (names: {run.guessed.name.pattern}):")
             for role, entry in run.guessed.columns.items():
-                out.print(f"  {role}: column {entry.header!r}, {entry.column.reason}; unit {entry.unit.value}: {entry.unit.reason}")
+                out.print(f"  {role}: column {entry.header!r}, {'; '.join(entry.why)}")
             for tag, guess in run.guessed.tags.items():
                 out.print(f"  {tag} = {guess.value}: {guess.reason}")
             if run.guessed.left_out:

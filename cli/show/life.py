@@ -5,7 +5,7 @@ from collections.abc import Callable
 import xarray as xr
 
 from cli.screen import BETWEEN, WIDTH, console, dense
-from studies.figure_units import OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
+from studies.figure_units import HELD_IN_LIVES, OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from studies.life import Life
 from studies.passes import again_line
 
@@ -39,7 +39,7 @@ LIFE_COLUMNS = (
     ("outer_peak_deg", "outer\nat\ndeg", 0), ("disc_peak_deg", "flank\nat\ndeg", 0),
     ("peak_pin_force_N", "pin\nforce\nN", 0), ("mean_loaded_teeth", "\nloaded\nteeth", 1),
     ("mean_lag_arcsec", "\nlag\narcsec", 1), (OVER_TURN, "\nTE p-p\narcsec", 2),
-    ("torsional_stiffness_Nm_per_arcmin", "stiff\nNm per\narcmin", 0),
+    ("torsional_stiffness_Nm_per_arcmin", "stiff\nNm per\narcmin", 0), ("lost_motion_arcmin", "lost\nmotion\narcmin", 3),
 )  # fmt: skip
 
 
@@ -52,7 +52,7 @@ def life_table(dataset: xr.Dataset) -> None:
     ]  # fmt: skip
     widths = [max(map(len, [*head.split("\n"), *column])) for head, column in zip(heads, zip(*rows))]
     table = dense(dataset.attrs["title"])
-    table.caption, table.caption_justify = f"{WHAT_IS_OVER_TURN}\n{RUNNING}", "left"
+    table.caption, table.caption_justify = f"{WHAT_IS_OVER_TURN}\n{RUNNING}\n{HELD_IN_LIVES}", "left"
     for head, width in zip(heads, widths):
         table.add_column(head, justify="right", no_wrap=True, min_width=width)
     for row in rows:

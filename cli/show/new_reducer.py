@@ -6,7 +6,7 @@ from pathlib import Path
 from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
-from fmu_src.display import read_text
+from fmu_src.display import in_print, read_text
 from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, Completion
@@ -36,7 +36,7 @@ def show(completion: Completion, name: str, file: Path, test: Hysteresis | None,
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
     if (free := completion.numbers[FREE]).source.startswith(AS_STIFF):
-        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {free.source.removeprefix(f'{FOUND}: ')}")
+        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {in_print(free.source.removeprefix(f'{FOUND}: '))}")
     console().print(
         f"given: {given_words(completion.given)}; {counts_of(completion).words}; each stands in the file with its range and its rule in full,"
         " --known NAME=VALUE replaces one and what hangs on it"
@@ -86,7 +86,7 @@ def in_words(test: Hysteresis, targets: Sequence[Target]) -> str:
     """What the stiffness test reads beside what the catalogue has, and which options make it that."""
     asked = {target.name: f" (the catalogue's: {target.asked:g})" for target in targets}
     stiff, lost = asked.get(STIFFNESS, ""), asked.get(LOST_MOTION, "")
-    found = f"the stiffness test reads {test.stiffness_Nm_per_arcmin:.4g} N.m/arcmin{stiff} and a lost motion of {test.lost_motion_arcmin:.3g} arcmin{lost}"
+    found = f"the stiffness test reads {test.stiffness_Nm_per_arcmin:.4g} N m/arcmin{stiff} and a lost motion of {test.lost_motion_arcmin:.3g} arcmin{lost}"
     left = [option for option, said in (("--stiffness", stiff), ("--lost-motion", lost)) if not said]
     return found + (f"; {' and '.join(left)} of the catalogue would make it that" if left else "")
 

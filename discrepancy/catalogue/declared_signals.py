@@ -37,6 +37,8 @@ REDUCER, WITH_PINS = "RV20E-121", "cycloidal-actuator"
 PATIENCE = 120.0
 # What changes by less than the noise of a usual bench shows nothing there; what is not declared has to stand out of it so many times (assumed).
 STANDS_OUT = 3.0
+# What a solver leaves is no change: less of the noise is nothing.
+LEAST_RATIO = 0.01
 # Noise (SI) beside that of ``UNMEASURED``, and of what has none there its share of the size (all assumed).
 NOISE = UNMEASURED | {"temperature": 0.5, "efficiency": 0.005, "wear_profile": 1e-7}
 SHARE = 0.05
@@ -64,7 +66,7 @@ def main(name: str) -> None:
 
 
 def doubts_of(name: str, effect: Effect) -> list[str]:
-    """A sentence for what changes and is not declared, and one where nothing that is declared changes."""
+    """A sentence for what changes and is not declared, and one for what is declared and does not change: all of it, or some."""
     return doubts_in(effect, changes_of(name, effect)) if effect.signals else []
 
 
@@ -83,6 +85,9 @@ def doubts_in(effect: Effect, found: Mapping[str, "Change"]) -> list[str]:
         most = max((change for q, change in found.items() if q in judged), key=lambda change: change.ratio)
         said.append(f"none of its signals is changed by more than noise at its usual size on {reducer}, most {most.quantity} ({most.text}):"
                     " look at the usual size in EFFECT, and at what the hooks change")  # fmt: skip
+    elif still := [q for q in declared if (change := found.get(MADE_OF.get(q, q))) and change.ratio < LEAST_RATIO]:
+        said.append(f"signals have {', '.join(still)}, changed by nothing at its usual size on {reducer}: where nothing else is measured a diagnosis looks"
+                    " for it in vain; leave it out, or look at what the hooks change")  # fmt: skip
     return said
 
 

@@ -16,7 +16,7 @@ from fmu_src.units import conversion
 from reducers.completion.command import PINS_ASSUMED, described, usual_name, words_of
 from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, GIVEN, LEAST, MEETS, RULES, UNITS, complete, dials_for, numbers_of
 from reducers.completion.dials import dials_of
-from reducers.completion.doubts import FREE, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
+from reducers.completion.doubts import FREE, diameter_of, doubts_of, ring_doubt, stiffness_doubt, sun_doubt
 from reducers.completion.given import GAP, PLAY, SHIFT, SUN, Given
 from reducers.completion.known import FROM_OPTIONS
 from reducers.usual import DERIVED, FAR, USUAL
@@ -97,7 +97,7 @@ def doubts_again(reducer: Reducer) -> list[str]:
     """What was said to be doubtful when the file was completed; of any other file what its own numbers say of the same."""
     given, numbers, sources = given_again(reducer), in_units(reducer), sources_of(reducer)
     ring, rated, sun = numbers["pin.circle_radius"], abs(numbers["output.load_torque"]), numbers.get(SUN)
-    plain = ring_doubt(ring, rated) + (sun_doubt(sun) if sun is not None else [])
+    plain = ring_doubt(ring, rated, diameter_of(given) if given else None) + (sun_doubt(sun) if sun is not None else [])
     if given is None:
         return plain
     stiff = stiff_again(given, numbers, sources)

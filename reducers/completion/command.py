@@ -42,7 +42,7 @@ def given_words(given: Given) -> str:
     own = {"speed": f"{given.speed:g} rpm of the output", "rollers": f"{given.rollers} rollers a bearing"}
     said += [text if getattr(given, name) != usual[name] else f"{text} (as usual)" for name, text in own.items()]
     said += [f"lost motion {given.lost_motion:g} arcmin"] if given.asks_lost_motion else []
-    said += [f"torsional stiffness {given.stiffness:g} N.m/arcmin"] if given.stiffness is not None else []
+    said += [f"torsional stiffness {given.stiffness:g} N m/arcmin"] if given.stiffness is not None else []
     return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in measured(given).items())])
 
 

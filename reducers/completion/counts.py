@@ -21,7 +21,8 @@ class Counts(NamedTuple):
     @property
     def short(self) -> str:
         found = f", {len(self.found)} looked for to meet the catalogue" if self.found else ""
-        return f"{self.whole} numbers: {len(self.given)} follow from what is given alone{found}, {self.by_rule + self.assumed} completed by design rules"
+        rest = f"{self.by_rule} come by published rules, {self.assumed} are assumed"
+        return f"{self.whole} numbers: {len(self.given)} follow from what is given alone{found}, {rest}"
 
     @property
     def words(self) -> str:

@@ -22,6 +22,8 @@ IN_SERIES = 2.0 ** (-10.0 / 9.0)
 BULK = "assumed: around what was reckoned from drawings of an RV-20E and an RV-40E"
 # Rollers stand at least so far apart [deg], see [RV programs].
 ROLLERS_APART = 1.0
+# Range of the pin circle radius over the outer diameter of the housing.
+RING_SHARE = (0.33, 0.40)
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ def dials_of(pins: int, rollers: int, diameter: bool, lost_motion: float) -> lis
     """
     closest = rollers / math.pi * math.sin(math.pi / rollers - math.radians(0.5 * ROLLERS_APART))
     ring = (
-        between("ring_share", "pin circle radius over outer diameter", 0.33, 0.40, "assumed: ring, seat, bearing and flange share the radius")
+        between("ring_share", "pin circle radius over outer diameter", *RING_SHARE, "assumed: ring, seat, bearing and flange share the radius")
         if diameter else
         between("ring_torque", "pin circle radius over the cube root of the rated torque", 0.85, 1.3, HANDBOOK, "mm/(N.mm)^(1/3)")
     )  # fmt: skip

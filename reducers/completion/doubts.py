@@ -3,6 +3,7 @@
 import math
 
 from fmu_src.display import read_text
+from reducers.completion.dials import RING_SHARE
 from reducers.completion.given import SUN, Given
 
 # Pin circle radius [mm] over the cube root of the torque [N mm] that is usual (cycloid handbooks).
@@ -12,13 +13,14 @@ TORQUE_SHARE = (0.85, 1.3)
 NO_UNDERCUT = 2.0 / math.sin(math.radians(20.0)) ** 2
 # Profile shift [modules] that suns of few teeth have at most (assumed): from ten teeth on less does.
 LARGEST_SHIFT = 0.5
+RING = "pin.circle_radius"
 # The number that is free where a catalogue states the stiffness.
 FREE = "crank.support_compliance"
 
 
 def doubts_of(given: Given, ring: float, sun: float) -> list[str]:
     """All that needs no more than what is given, the radius of the ring of pins [mm] and the sun's teeth."""
-    return [*pins_doubt(given), *rounded_ratio(given), *ring_doubt(ring, given.rated), *sun_doubt(sun)]
+    return [*pins_doubt(given), *rounded_ratio(given), *ring_doubt(ring, given.rated, diameter_of(given)), *sun_doubt(sun)]
 
 
 def rounded_ratio(given: Given) -> list[str]:
@@ -41,14 +43,27 @@ def pins_doubt(given: Given) -> list[str]:
     ]  # fmt: skip
 
 
-def ring_doubt(radius: float, torque: float) -> list[str]:
-    """That a ring of this radius [mm] is unusual for this torque [N m], if it is."""
-    share = radius / math.cbrt(1e3 * torque) if torque else TORQUE_SHARE[0]
-    if TORQUE_SHARE[0] <= share <= TORQUE_SHARE[1]:
+def diameter_of(given: Given) -> float | None:
+    """The outer diameter [mm] of which the ring of pins was made, where it was."""
+    return None if RING in given.known else given.diameter
+
+
+def ring_doubt(radius: float, torque: float, diameter: float | None = None) -> list[str]:
+    """That a ring of this radius [mm] is unusual for this torque [N m], if it is; ``diameter``: of the housing [mm], where the ring was made of it."""
+    low, high = (share * math.cbrt(1e3 * torque) for share in TORQUE_SHARE)
+    if not torque or low <= radius <= high:
         return []
+    share = radius / math.cbrt(1e3 * torque)
+    made, advice = "", ": look at both, and at their units"
+    if diameter is not None:
+        made = f", made as {radius / diameter:.3g} times the outer diameter of {diameter:g} mm,"
+        advice = ": look at --rated and --diameter, and at their units"
+        if RING_SHARE[0] * diameter <= high and low <= RING_SHARE[1] * diameter:
+            usual = f"from {low:.4g} mm on" if radius < low else f"up to {high:.4g} mm"
+            advice = f", here {usual}: measure the radius and give --known {RING}=..., or look at --rated and --diameter"
     return [
-        f"pin.circle_radius = {radius:.4g} mm is {share:.3g} times the cube root of the torque (rated, output.load_torque) of {torque:.6g} N m in N mm,"
-        f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks): look at both, and at their units"
+        f"{RING} = {radius:.4g} mm{made} is {share:.3g} times the cube root of the torque (rated, output.load_torque) of {torque:.6g} N m in N mm,"
+        f" where {TORQUE_SHARE[0]} to {TORQUE_SHARE[1]} is usual (cycloid handbooks){advice}"
     ]  # fmt: skip
 
 

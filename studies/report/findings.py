@@ -51,6 +51,7 @@ def cards(result: Result) -> list[Card]:
         "mean_lag_arcsec": ("Mean lag", "arcsec", ""),
         OVER_TURN: ("Transmission error, output turn (p-p)", "arcsec", ""),
         "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness, running", "N·m/arcmin", ""),
+        **({"lost_motion_arcmin": ("Lost motion, input held", "arcmin", "")} if has_lost_motion(result) else {}),
     }
     made = []
     for name, (label, unit, note) in texts.items():
@@ -171,7 +172,13 @@ def accuracy(result: Result) -> list[str]:
         before = f"still stands {number(lag[1])} arcsec behind its ideal angle"
     error = moves("the transmission error over one turn of the output", result, OVER_TURN, "arcsec peak to peak")
     stiffness = moves("running torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
-    return [f"The carrier {before}; {error}, and {stiffness}."]
+    found = [error, stiffness, *([moves("lost motion", result, "lost_motion_arcmin", "arcmin")] if has_lost_motion(result) else [])]
+    return [f"The carrier {before}; {', '.join(found[:-1])}, and {found[-1]}."]
+
+
+def has_lost_motion(result: Result) -> bool:
+    """Results of former versions have none, nor have lives without torque or in motion."""
+    return "lost_motion_arcmin" in result.dataset and bool(np.isfinite(result["lost_motion_arcmin"]).all())
 
 
 def loads(result: Result) -> str:

@@ -42,6 +42,14 @@ export function differing(patterns) {
   };
 }
 
+// The pattern of one family of names: where they differ by the angle alone at which the input was locked, its field stands in place of the angle of one file.
+export function familyPattern(runs, conditions) {
+  const patterns = [...new Set(runs.map((run) => run.names))],
+    found = patterns.length > 1 ? differing(patterns) : null;
+  const isLocked = (run) => parseFloat(conditions[run.condition]?.locked_at ?? "") === found.number(run.names);
+  return found?.angles && runs.every(isLocked) ? found.pattern("locked_at") : patterns[0];
+}
+
 const figure = (text) => parseFloat(text.replace(",", "."));
 
 // ``take(pattern)`` is told what was chosen, ``place({condition: angle})`` that it is where the input was locked, which leaves conditions the names that they

@@ -2,7 +2,7 @@
 
 import { choose, h, spark, table, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
-import { apart, family, numbersSaid } from "./in_names.js";
+import { apart, family, familyPattern, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
 import { soItIs } from "./in_yes.js";
 import { zeroOf } from "./in_zero.js";
@@ -132,7 +132,7 @@ function group(bag, members) {
       column ? spark(column.curve) : "",
       unitOf(entry, { units, factor: data.wishes.scales?.[`${own[0]}:${entry.header}`] }, (part, value, place) => forAll(part, (name) => `${name}:${entry.header}`, value, place)),
       [
-        h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.column.reason}; unit: ${entry.unit.reason} `),
+        h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.why.join("; ")} `),
         entry.column.sure && entry.unit.sure ? null : soItIs(`${entry.header} is ${words(role)} in ${entry.unit.value}`, () => confirm(role, entry)),
       ],
     ];
@@ -184,12 +184,13 @@ function group(bag, members) {
       const others = (w.names ?? []).filter((n) => !patterns.includes(n));
       w.names = names ? [...new Set([names, ...others])] : others;
     });
+  const shown = familyPattern(members, data.proposal.conditions);
   const pattern = h("input", {
     type: "text",
-    value: first.names,
-    size: Math.min(64, Math.max(18, first.names.length + 2)),
+    value: shown,
+    size: Math.min(64, Math.max(18, shown.length + 2)),
     "aria-label": "pattern of the names",
-    title: `${first.names}\n\n` + "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {locked_at} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
+    title: `${shown}\n\n` + "{load} {speed} {input_speed} {output_speed} {temperature} {hours} {locked_at} {direction} {mounting} {replicate} {condition} {any}; a unit behind a number is read, {load:in-lbf} says it where the name does not",
     onchange: () => say(pattern.value.trim()),
   });
   return h(
@@ -212,7 +213,7 @@ function group(bag, members) {
         zeroOf(bag, first.quantity.value, quantity),
         kin.length > own.length ? alike(first.quantity.value, bag) : null,
       ),
-      h("label", { class: "inline small" }, "names say", pattern),
+      h("label", { class: "inline small" }, patterns.length > 1 && shown === patterns[0] ? `names say (one of ${patterns.length} alike)` : "names say", pattern),
     ),
     numbersSaid(members, data.proposal.conditions, Boolean(quantity.roles.locked_at), say, (angles) =>
       putEach("conditions", Object.entries(angles).map(([name, angle]) => [`${name}:locked_at`, angle])),

@@ -7,7 +7,7 @@ import { dimmed, pastLife } from "./past.js";
 import { Plot } from "./plot.js";
 
 // One for each line of all panes, which share a legend.
-const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--a"];
+const COLOURS = ["--predicted", "--measured", "--tried", "--gold", "--b", "--residual", "--left-a", "--a"];
 
 const USUAL_HOURS = "10000";
 

@@ -103,7 +103,7 @@ def fit(column: Column, role: str) -> tuple[float, list[str]] | None:
     if column.stated and column.stated[1]:
         if column.stated[1] != KINDS[role]:
             return None
-        points, why = points + UNIT, [f"unit {column.stated[0]} ({column.stated[2]})"]
+        points, why = points + UNIT, [unit_words(column.stated[0], column.stated[2])]
     meant = MEANT.get(role, (role,))
     if column.meaning in meant:
         points += NAME - 0.5 * meant.index(column.meaning)
@@ -116,6 +116,11 @@ def fit(column: Column, role: str) -> tuple[float, list[str]] | None:
     elif role in ("torque", "angle", "input_angle", "order", "time"):
         points -= SHAPE
     return points, why
+
+
+def unit_words(unit: str, reason: str) -> str:
+    """A unit as a reason for what a column is, with where it stands."""
+    return f"unit {unit} ({reason})"
 
 
 def shape_fits(shape: Shape, role: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of
+from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of, unit_words
 from discrepancy.campaign.guess.column_words import quantities_named, surface_named
 from discrepancy.campaign.guess.file_names import Parsed, stem
 from discrepancy.campaign.guess.given_names import parsed
@@ -62,8 +62,14 @@ class Entry:
     unit: Guess[str]
     keys: dict[str, Any]
 
+    @property
+    def why(self) -> list[str]:
+        """For what it is taken, and its unit, which may be a reason of the former."""
+        unit = unit_words(self.unit.value, self.unit.reason)
+        return [self.column.reason] if unit in self.column.reason else [self.column.reason, unit]
+
     def as_json(self) -> dict[str, object]:
-        return {"column": self.column.as_json(), "header": self.header, "unit": self.unit.as_json(), **self.keys}
+        return {"column": self.column.as_json(), "header": self.header, "unit": self.unit.as_json(), "why": self.why, **self.keys}
 
 
 @dataclass(frozen=True)
