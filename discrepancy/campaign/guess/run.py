@@ -8,18 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of, unit_words
+from discrepancy.campaign.guess.assign import MARGIN, Assignment, Column, assignments, columns_of
 from discrepancy.campaign.guess.column_words import quantities_named, surface_named
+from discrepancy.campaign.guess.entry import Entry
 from discrepancy.campaign.guess.file_names import Parsed, stem
 from discrepancy.campaign.guess.given_names import parsed
 from discrepancy.campaign.guess.header_units import name_of, unknown_in
-from discrepancy.campaign.guess.lines_above import stated_above
 from discrepancy.campaign.guess.locked_words import held_angle, locked_angle
-from discrepancy.campaign.guess.magnitudes import SIZES, speed_role, unit_by_size
-from discrepancy.campaign.guess.name_and_head import contradiction, is_measured
-from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize
+from discrepancy.campaign.guess.magnitudes import unit_by_size
+from discrepancy.campaign.guess.said import Doubt, Guess
 from discrepancy.campaign.guess.set_steps import held_level
 from discrepancy.campaign.guess.state_words import locked_side, unloaded
+from discrepancy.campaign.guess.stated_factors import ABOVE, factors_of
 from discrepancy.campaign.guess.table import Table, table_of
 from discrepancy.campaign.guess.tag_words import meant_by, words_for
 from discrepancy.campaign.guess.uneven import is_of_output
@@ -36,9 +36,6 @@ FAR_START = 10.0
 # A turn is short of its last step.
 JUST_ABOVE = 1.002
 MOST_REPETITIONS = 50
-# A speed that is stated and one that was measured are the same within this share.
-SAME_SPEED = 0.05
-ABOVE = "a line above the table"
 NUMBERS = r"\d+(?:[.,]\d+)?"
 
 
@@ -51,25 +48,6 @@ class NothingFits(InputFault):
         super().__init__(f"{text}; give units by --unit 'COLUMN=UNIT', what it is by --quantity '{file}=QUANTITY' ({quantities}), or a column by"
                          " --column value=COLUMN")  # fmt: skip
         self.on_page = f"{text}; write units into the heads of its columns, and what was measured into its name or a head ({words}), and drop it again"
-
-
-@dataclass(frozen=True)
-class Entry:
-    """A column of a run, with the keys that go with it."""
-
-    column: Guess[str]
-    header: str
-    unit: Guess[str]
-    keys: dict[str, Any]
-
-    @property
-    def why(self) -> list[str]:
-        """For what it is taken, and its unit, which may be a reason of the former."""
-        unit = unit_words(self.unit.value, self.unit.reason)
-        return [self.column.reason] if unit in self.column.reason else [self.column.reason, unit]
-
-    def as_json(self) -> dict[str, object]:
-        return {"column": self.column.as_json(), "header": self.header, "unit": self.unit.as_json(), "why": self.why, **self.keys}
 
 
 @dataclass(frozen=True)
@@ -312,67 +290,6 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
             if said is None:
                 doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD, {words_for(tag)}"))
     return found, doubts
-
-
-def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry]) -> tuple[dict[str, Guess[str]], dict[str, str], list[Doubt]]:
-    """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table; of those that the name says what such a line has
-    measured; doubts."""
-    found: dict[str, Guess[str]] = {}
-    actual: dict[str, str] = {}
-    doubts = []
-    above = stated_above(table.above)
-    sources = [(name.numbers, f"the file's name, by {name.pattern!r}"), (above, ABOVE)]
-    for numbers, where in sources:
-        for field, (number, unit) in numbers.items():
-            key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
-            if field == "speed":
-                rpm = conversion(unit, "rpm")[0] * number
-                side = speed_above(rpm, above) or speed_column(rpm, table, entries) or speed_role(rpm)
-                key, reason, sure = side.value, f"{where}; {side.reason}", side.sure
-            text = f"{number:g} {unit}"
-            if key in found:
-                named = found[key].value
-                actual |= {key: text} if is_measured(key, named, text) else {}
-                doubts += [doubt] if (doubt := contradiction(path, key, named, text)) else []
-                continue
-            if key.endswith("speed") and any(k.endswith("speed") for k in found):
-                continue
-            found[key] = Guess(text, reason, sure)
-            if not sure:
-                other = "output_speed" if key == "input_speed" else "input_speed"
-                remedy = f"--names with {{{other}}} in its place, or correct the condition"
-                told = f"{text} is taken for the {key}: {side.reason}"
-                doubts.append(SpeedBySize(path.name, told, remedy, text, key, SIZES[key]))
-    if name.direction:
-        found["direction"] = Guess(name.direction, f"the file's name, by {name.pattern!r}")
-    if name.mounting:
-        found["mounting"] = Guess(name.mounting, f"the file's name, by {name.pattern!r}")
-    return found, actual, doubts
-
-
-def speed_above(rpm: float, above: Mapping[str, tuple[float, str]]) -> Guess[str] | None:
-    """The side of which the lines above the table say the same speed."""
-    for role in ("input_speed", "output_speed"):
-        if role in above:
-            number, unit = above[role]
-            if abs(conversion(unit, "rpm")[0] * number - rpm) < SAME_SPEED * rpm:
-                return Guess(role, f"{ABOVE} says whose it is")
-    return None
-
-
-def speed_column(rpm: float, table: Table, entries: Mapping[str, Entry]) -> Guess[str] | None:
-    """The side at which the file's own column has a stated speed."""
-    for role in ("input_speed", "output_speed"):
-        if role in entries:
-            entry = entries[role]
-            measured = float(np.nanmedian(np.abs(table.columns[entry.column.value]))) * abs(float(entry.keys.get("scale", 1.0)))
-            try:
-                measured *= conversion(entry.unit.value, "rpm")[0]
-            except UnitError:
-                continue
-            if abs(measured - rpm) <= SAME_SPEED * rpm:
-                return Guess(role, f"column {entry.header!r} has it")
-    return None
 
 
 def repetitions(table: Table, columns: list[Column]) -> tuple[str, tuple[int, ...]] | None:
