@@ -124,7 +124,7 @@ class PlacedBeside:
 
     def found_beside(self) -> tuple[dict[Effects, Any], ...]:
         """Where everything is kept that is found beside effects."""
-        return self.locked_places.found, self.lags.found, self.locked_waves.found, self.unstated_places.found, self.cages.ripples, self.cages.ahead
+        return self.locked_places.found, self.lags.found, self.locked_waves.found, self.unstated_places.found, self.cages.ahead, self.cages.ripples
 
     def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int], list[int]]:
         """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; transmission errors tell, of each load one is enough.
