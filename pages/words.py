@@ -1,6 +1,7 @@
 """Numbers in print, and words at the beginning of a sentence."""
 
 import math
+import re
 
 
 def hour_text(hours: float) -> str:
@@ -19,6 +20,11 @@ def number(value: float | None, digits: int = 3) -> str:
         return f"{value:.{digits - 1}e}"
     text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
     return text.replace("-", "−")
+
+
+def micro(text: str) -> str:
+    """A text of a command as a page has it: with the sign of a micrometre, alone or in a unit (``um/kN``)."""
+    return re.sub(r"(?<![\w.])um(?![\w.])", "µm", text)
 
 
 def capital(text: str) -> str:
