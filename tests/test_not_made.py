@@ -134,7 +134,7 @@ def test_a_stated_number_that_no_such_reducer_has_is_doubted_and_not_refused(tmp
     from workbench.folder import opened
     from workbench.reducers import shown
 
-    assert found.doubts == shown(opened(tmp_path), "mine.toml")["reducer"]["doubts"]
+    assert [text.replace(" um", " µm") for text in found.doubts] == shown(opened(tmp_path), "mine.toml")["reducer"]["doubts"]
 
 
 def test_what_one_modification_adds_and_the_other_takes_back_is_usual():

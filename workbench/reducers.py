@@ -17,7 +17,7 @@ from fmu_src.display import display_unit
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.units import conversion
 from pages.content import Card
-from pages.words import number
+from pages.words import in_print, number
 from reducers.checking import Check, check
 from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion
@@ -53,7 +53,7 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        found["reducer"] = described(file) | headed(file) | {"added": added(file), "open": left_open_in(file, folder)}
+        found["reducer"] = described(file) | headed(file) | {"added": in_print(added(file)), "open": in_print(left_open_in(file, folder))}
     return found
 
 
@@ -97,8 +97,8 @@ def described(file: ModelFile) -> dict[str, Any]:
     return {
         "speed": speed_of(reducer),
         "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
-        "figures": [*map(figure_data, figures)], "numbers": numbers(reducer), "findings": findings(checked),
-        "doubts": [*(text for text in checked.doubts if text not in checked.outdated), *filter(None, [without])],
+        "figures": [*map(figure_data, figures)], "numbers": in_print(numbers(reducer)), "findings": in_print(findings(checked)),
+        "doubts": in_print([*(text for text in checked.doubts if text not in checked.outdated), *filter(None, [without])]),
     }  # fmt: skip
 
 
@@ -164,8 +164,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     cards = test_cards(reducer, completion, stiffness)
     page = replace(page, cards=[*page.cards, *cards], warnings=[*map(plainly, page.warnings)])
     words = [*words_of(completion.given), "--name", name]
-    found = {"name": name, "saved": saved, "findings": findings(check(reducer))}
-    return {"page": page_data(page), "numbers": rows_of(completion), **found, "command": shlex.join(words)}
+    found = {"name": name, "saved": saved, "findings": in_print(findings(check(reducer)))}
+    return {"page": page_data(page), "numbers": in_print(rows_of(completion)), **found, "command": shlex.join(words)}
 
 
 def test_cards(reducer: Reducer, completion: Completion, stiffness: float | None) -> list[Card]:

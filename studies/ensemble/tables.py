@@ -17,7 +17,7 @@ def tables_of(found: dict[str, Any]) -> list[Table]:
         {"figure": name, "parameter": parameter, "alone": row["alone"], "with_interactions": row["total"]}
         for name, rows in found.get("sensitivity", {}).items() for parameter, row in rows.items()
     ]  # fmt: skip
-    return [rows_table("distributions", distributions, {}), rows_table("sensitivity", shares, {}), bands_table(found["bands"])]
+    return [rows_table("distributions", distributions, {}), rows_table("sensitivity", shares, {}), *([bands_table(found["bands"])] if "bands" in found else [])]
 
 
 def bands_table(bands: dict[str, Any]) -> Table:
