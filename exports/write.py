@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from exports.plain import plain
+from exports.plain import decimal, plain
 from exports.tables import Table
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart
@@ -50,8 +50,9 @@ def beside(tables: Sequence[Table], path: Path) -> list[tuple[Table, Path]]:
 def write_csv(tables: Sequence[Table], path: Path) -> list[Path]:
     for table, own in beside(tables, path):
         with replacing(own) as partial:
-            # As many digits as a number has.
-            text = (f"# {table.note}\n" if table.note else "") + table.frame().to_csv(index=False)
+            # As many digits as a number has, without those that a conversion of units made.
+            frame = table.frame()
+            text = (f"# {table.note}\n" if table.note else "") + frame.assign(**{str(head): decimal(frame[head]) for head in frame}).to_csv(index=False)
             # Excel takes UTF-8 without a byte order mark for the machine's own code page; other programs need none where all is ASCII.
             partial.write_text(text, encoding="utf-8" if text.isascii() else "utf-8-sig", newline="")
     return [own for _, own in beside(tables, path)]

@@ -70,7 +70,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """``finding`` is the result in a sentence."""
+    """``finding`` is the result in a sentence; ``notes_behind`` names the section behind which the warnings stand, in place of before all of them."""
 
     kind: str
     title: str
@@ -79,6 +79,7 @@ class Page:
     cards: list[Card]
     sections: list[Section]
     warnings: list[str]
+    notes_behind: str = ""
 
     @property
     def figures(self) -> list[Figure]:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from pages.look import Trace
+from pages.words import micro
 
 # A pixel of the screen's strokes and signs, in points of print.
 STROKE, SIGN = 0.6, 0.55
@@ -25,7 +26,7 @@ def spelled(text: Any) -> str:
     """A text of the page without its marks."""
     plain = re.sub(r"<br\s*/?>", "\n", str(text))
     # A dollar sign would begin mathematics.
-    return unescape(re.sub(r"<[^>]+>", "", plain)).replace("$", r"\$")
+    return micro(unescape(re.sub(r"<[^>]+>", "", plain))).replace("$", r"\$")
 
 
 def colour_of(text: Any) -> Any:

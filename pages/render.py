@@ -14,7 +14,8 @@ from plotly.offline import get_plotlyjs
 
 from fmu_src.checked_file import write_text
 from pages.content import Choosable, Page
-from pages.look import Figure
+from pages.look import Figure, Trace
+from pages.words import in_print, micro
 
 HERE = Path(__file__).parent
 
@@ -28,8 +29,8 @@ def rendered(template: Path, figures: Sequence[Figure], hours: Sequence[str] = (
     if len(set(names)) != len(names):
         raise ValueError(f"figures share a name: {sorted(names)}")
     environment = Environment(
-        loader=FileSystemLoader([template.parent, HERE]), autoescape=True, trim_blocks=True, lstrip_blocks=True
-    )
+        loader=FileSystemLoader([template.parent, HERE]), autoescape=True, trim_blocks=True, lstrip_blocks=True, finalize=in_print,
+    )  # fmt: skip
     return environment.get_template(template.name).render(
         style=inside("page.css"), dark=inside("dark.js"), narrow=inside("narrow.js"), script=inside("page.js"), plotly=Markup(packed_plotly()),
         content=embedded(figures, hours), hours=hours, **values,
@@ -68,6 +69,11 @@ def embedded(figures: Sequence[Figure], hours: Sequence[str]) -> Markup:
 def described(figure: Figure) -> dict[str, Any]:
     choices = figure.choices if isinstance(figure, Choosable) else []
     return {
-        "name": figure.name, "data": figure.data, "layout": figure.layout, "states": figure.states, "rows": figure.rows_of, "height": figure.height,
-        "choices": [{"traces": choice.traces, "layout": choice.layout} for choice in choices],
+        "name": figure.name, "data": named(figure.data), "layout": in_print(figure.layout), "states": figure.states, "rows": figure.rows_of,
+        "height": figure.height, "choices": [{"traces": named(choice.traces), "layout": in_print(choice.layout)} for choice in choices],
     }  # fmt: skip
+
+
+def named(traces: list[Trace]) -> list[Trace]:
+    """With names and words under the pointer in print; numbers, of which there may be many, and words of axes stay."""
+    return [{key: micro(value) if type(value) is str else value for key, value in trace.items()} for trace in traces]

@@ -1,6 +1,8 @@
 """Numbers in print, and words at the beginning of a sentence."""
 
 import math
+import re
+from typing import Any
 
 
 def hour_text(hours: float) -> str:
@@ -19,6 +21,21 @@ def number(value: float | None, digits: int = 3) -> str:
         return f"{value:.{digits - 1}e}"
     text = f"{round(value, digits - 1 - size):,.{max(0, digits - 1 - size)}f}"
     return text.replace("-", "−")
+
+
+def micro(text: str) -> str:
+    """A text of a command as a page has it: with the sign of a micrometre, alone or in a unit (``um/kN``)."""
+    return re.sub(r"(?<![\w.])um(?![\w.])", "µm", text)
+
+
+def in_print(value: Any) -> Any:
+    """The same of all texts in lists and tables."""
+    if isinstance(value, dict):
+        return {key: in_print(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [in_print(part) for part in value]
+    # Markup, which templates make, stays as it is.
+    return micro(value) if type(value) is str else value
 
 
 def capital(text: str) -> str:

@@ -7,10 +7,14 @@ from dataclasses import dataclass, field
 from fmu_src.display import display_unit
 from fmu_src.faults import InputFault
 from fmu_src.units import conversion
-from reducers.completion.again import command, doubts_again, outdated
-from reducers.completion.geometry import check_geometry, check_profile, largest_pin
-from reducers.completion.given import SUN, Given
+from reducers.completion.again import STIFF, command, doubts_again, given_again, in_units, outdated, sources_of
+from reducers.completion.complete import COMPLETED
+from reducers.completion.dials import ASSUMED
+from reducers.completion.geometry import NOWHERE, PartsFault, check_drive, check_geometry, largest_pin
+from reducers.completion.given import GAP, SHIFT, SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
+from reducers.completion.unusual import is_beyond, unusual_alone
+from reducers.completion.unusual import unusual as unusual_in_rules
 from reducers.reducer import Reducer, numbers_of
 from reducers.usual import DERIVED, USUAL, stale
 from rv_plant.gear_stage import total_ratio
@@ -68,6 +72,8 @@ class Check:
     completing: str = ""
     # Of the doubts those about numbers that were completed from others than the file has now.
     outdated: list[str] = field(default_factory=list)
+    # Of the fault which parts it is about, as ``completion.geometry`` names them.
+    place: str = NOWHERE
 
     @property
     def outcome(self) -> str:
@@ -91,12 +97,12 @@ def check(reducer: Reducer) -> Check:
     n, t = numbers_of(reducer), reducer.topology
     ring, pin, throw = (MM * n[name] for name in ("pin.circle_radius", "pin.radius", "crank.eccentricity"))
     stage = n.get("first_stage.ratio", 0.0)
-    most = largest_pin(ring, throw, t.pins)
+    most = largest_pin(ring + MM * n[SHIFT], throw, t.pins) - MM * n[GAP]
     figures = {
         "ratio": abs(float(total_ratio(stage, t.pins, t.lobes))), "K1": throw * t.pins / ring, "K2": ring * math.sin(math.pi / t.pins) / pin,
         "largest_pin_mm": most, "room_for_pins_mm": ring * math.sin(math.pi / t.pins),
     }  # fmt: skip
-    faults = faults_of(reducer, n, ring, pin, throw, stage)
+    faults, place = faults_of(reducer, n, stage)
     doubts = [
         f"{name} = {shown(reducer, name, stated)} is stated, {words} make {shown(reducer, name, value)}: correct one of them, or leave {name} out"
         for name, stated, value, words in stale(n, t)
@@ -114,8 +120,9 @@ def check(reducer: Reducer) -> Check:
         usual = ", ".join(usual_losses(name, abs(n["output.load_torque"]) / max(figures["ratio"], 1.0)) for name in smooth)
         names = ", ".join(smooth)
         doubts.append(f"{names}: not stated, and so without losses there: efficiency is too high, loops are too narrow; usual are {usual}")
+    doubts += beyond_usual(reducer, stage, doubts)
     old = outdated(reducer)
-    return Check(reducer, numbers(reducer), faults, doubts + old, figures, command(reducer) if rigid or smooth or old else "", old)
+    return Check(reducer, numbers(reducer), faults, doubts + old, figures, command(reducer) if rigid or smooth or old else "", old, place)
 
 
 def usual_losses(name: str, at_input: float) -> str:
@@ -143,25 +150,40 @@ def unusual(reducer: Reducer, n: dict[str, float], ratio: float) -> list[str]:
     return found
 
 
+def beyond_usual(reducer: Reducer, stage: float, told: list[str]) -> list[str]:
+    """Stated numbers outside of what rules have for such a reducer, of which nothing is ``told`` yet; of other drives those that all drives of steel share."""
+    have, given = in_units(reducer), given_again(reducer)
+    stated = {name for name, source in sources_of(reducer).items()
+              if not source.startswith((f"{DERIVED}: ", f"{USUAL}: ", COMPLETED)) and not STIFF.match(source)}  # fmt: skip
+    # Of what is rigid or does not rub another doubt tells.
+    stated -= {name for name in (*RIGID, *RUBBING) if have.get(name) == 0.0}
+    if given is not None:
+        found = unusual_in_rules(given, have, stated)
+    else:
+        steel = next(dial for dial in ASSUMED if dial.name == "material.elastic_modulus")
+        found = unusual_alone(have, stated) if stage > 0.0 or not is_beyond(have[steel.name], steel.low, steel.high) else {}
+    return [text for name, text in found.items() if not any(re.search(rf"\b{re.escape(name)}\b", other) for other in told)]
+
+
 def output_rpm(n: dict[str, float], ratio: float) -> float:
     return abs(n["input.speed"]) / ratio * 30.0 / math.pi
 
 
-def faults_of(reducer: Reducer, n: dict[str, float], ring: float, pin: float, throw: float, stage: float) -> list[str]:
-    """The first thing that forbids it, in the words of the file."""
+def faults_of(reducer: Reducer, n: dict[str, float], stage: float) -> tuple[list[str], str]:
+    """The first thing that forbids it, in the words of the file, and the parts that it is about."""
     t = reducer.topology
     try:
         if t.output_pins or stage <= 0.0 or t.cranks < 2:
-            check_profile(t.pins, ring, pin, throw)
+            check_drive(t, {name: MM * value for name, value in n.items()})
         else:
             ratio, torque = float(total_ratio(stage, t.pins, t.lobes)), max(1.0, abs(n["output.load_torque"]))
             # What a file leaves out is usual, and none of its own teeth.
             sun = {SUN: n[SUN]} if SUN in n else {}
-            given = Given(ratio, t.pins, torque, cranks=t.cranks, rollers=t.rollers, known=sun)
-            check_geometry(given, {name: MM * value for name, value in n.items()})
+            check_geometry(Given(ratio, t.pins, torque, cranks=t.cranks, rollers=t.rollers, known=sun), in_units(reducer))
     except InputFault as fault:
-        return [re.sub("|".join(KEYS), lambda found: KEYS[found[0]], str(fault))]
-    return []
+        said = re.sub("|".join(KEYS), lambda found: KEYS[found[0]], str(fault))
+        return [said], fault.place if isinstance(fault, PartsFault) else NOWHERE
+    return [], NOWHERE
 
 
 def numbers(reducer: Reducer) -> list[Stated]:

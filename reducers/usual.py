@@ -105,7 +105,7 @@ def usual() -> dict[str, Filled]:
     return found
 
 
-SI = {"um": "m", "GPa": "Pa", "hour": "s"}
+SI = {"um": "m", "GPa": "Pa", "h": "s"}
 # All that a file may leave out, of what it must state otherwise.
 FILLED = frozenset((*(rule.path for rule in RULES), *ZERO, *(dial.name for dial in ASSUMED)))
 

@@ -10,6 +10,7 @@ from orchestrator.settings import parse_setting
 from reducers.completion.complete import UNITS, Completion, complete
 from reducers.completion.file import reducer_at
 from reducers.completion.given import GAP, PLAY, Given
+from reducers.completion.unusual import doubts_of_known
 from reducers.reducer import Reducer
 from studies.catalogue_stiffness import as_stiff_as
 from studies.hysteresis import hysteresis
@@ -39,8 +40,9 @@ class Made(NamedTuple):
 def as_in_catalogue(given: Given, stiffness: float | None, meets: Meets, typed: str = "") -> Completion:
     """Completed as stiff as the catalogue says [N m/arcmin], if it does, ``typed`` with its unit, and with its lost motion as far as ``meets`` asks."""
     completion = complete(given) if stiffness is None else as_stiff_as(given, stiffness, typed)
-    made = made_for(completion, meets)
-    return as_in_catalogue(replace(given, made=made), stiffness, Meets.NOT, typed) if made else completion
+    if made := made_for(completion, meets):
+        return as_in_catalogue(replace(given, made=made), stiffness, Meets.NOT, typed)
+    return replace(completion, doubts=[*completion.doubts, *doubts_of_known(completion)])
 
 
 def made_for(completion: Completion, meets: Meets) -> dict[str, float]:

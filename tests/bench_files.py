@@ -51,6 +51,8 @@ WRITTEN = {
     "din": ("te", "", "φ / rad\tΔφ / µrad", "", (1.0, 1e-6), "\t", point, "utf-8"),
     "chinese": ("te", "", "输出角度(°),传动误差(角秒)", "", (DEG, ARCSEC), ",", point, "gb18030"),
     "chinese_utf16": ("te", "", "角度\t误差", "度\t角分", (DEG, ARCMIN), "\t", point, "utf-16"),
+    # No mark of the order of bytes: "name the table's columns" was said of it.
+    "chinese_utf16_unmarked": ("te", "", "角度\t误差", "度\t角分", (DEG, ARCMIN), "\t", point, "utf-16-be"),
     "japanese": ("te", "", "出力角度[deg],角度伝達誤差[arcsec]", "", (DEG, ARCSEC), ",", point, "cp932"),
     "rad_mdeg": ("te", "", "theta [rad] , te [mdeg]", "", (1.0, DEG / 1000), ",", point, "utf-8"),
     "no_header": ("te", "", "", "", (DEG, ARCSEC), " ", point, "utf-8"),

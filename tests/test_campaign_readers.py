@@ -56,7 +56,7 @@ def is_measured(record) -> None:
     ("phi;te\ndeg;arcsec\n0;1\n90;2,5\n180;-0,5\n270;0\n360;1,5\n", 'decimal = ","\nunits_line = true'),
     ("Prüfstand\nvom Montag\nphi,te\n0,1\n90,2.5\n180,-0.5\n270,0\n360,1.5\n", "skip_lines = 2"),
 ])  # fmt: skip
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252", "utf-16"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252", "utf-16", "utf-16-be", "utf-16-le"])
 def test_delimited_text(tmp_path, text, options, encoding):
     (tmp_path / "a.csv").write_text(text, encoding=encoding)
     is_measured(campaign(tmp_path, f'file = "a.csv"\n{options}\n{columns()}').records[0])

@@ -170,3 +170,30 @@ def test_what_is_missing_or_too_old_is_named(monkeypatch, tmp_path, capsys):
     monkeypatch.setenv("PATH", str(tmp_path))
     (found,) = doctor.compiler()
     assert found.state in (doctor.ABSENT, doctor.GOOD) and (found.remedy or found.state == doctor.GOOD)
+
+
+def test_doctor_folds_its_lines_and_leaves_a_command_to_be_copied_whole(capsys):
+    """They went on to 153 columns."""
+    command = f"/a/place/that/is/{'deep/' * 6}bin/python -m pip install \"rvwear[ensembles]\""
+    text = "lives of many reducers on all cores or a cluster (rvwear ensemble): dask is not installed, distributed is not installed"
+    found = [doctor.Finding("room for temporary files", doctor.GOOD, "67 GB"), doctor.Finding("[ensembles]", doctor.ABSENT, text, command),
+             doctor.Finding("C compiler", doctor.ABSENT, text, f"{text}; {text}")]  # fmt: skip
+    show(found)
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= WIDTH and f"  {command}" in lines
+    assert " ".join(" ".join(lines).split()).count(text) == 4
+
+
+def test_help_of_every_command_fits_the_screen(monkeypatch):
+    """The tests of ``bench`` stood in one word of 117 columns."""
+    import argparse
+
+    from cli.main import parser
+
+    def commands(one):
+        inner = [action for action in one._actions if isinstance(action, argparse._SubParsersAction)]
+        return [one, *(further for action in inner for command in action.choices.values() for further in commands(command))]
+
+    monkeypatch.setenv("COLUMNS", "100")
+    found = commands(parser())
+    assert len(found) > 30 and not [line for command in found for line in command.format_help().splitlines() if len(line) > WIDTH]

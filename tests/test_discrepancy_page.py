@@ -83,7 +83,7 @@ def model_of(hidden=None, held=True, extra=None):
                 if extra and axes:
                     values = values + extra(load)
                 records.append(replace(record, values=values + size * rng.normal(size=values.size)))
-    file = SimpleNamespace(name="gearbox <7>", heading="gearbox <7>", effects={})
+    file = SimpleNamespace(name="gearbox <7>", heading="gearbox <7>", effects={}, in_words="the base model")
     return Model(records, file, SimpleNamespace(name="bench & bolt", rig=None, records=(), copies={}, speed_at="output", ratio=100.0))
 
 
@@ -149,7 +149,7 @@ def written(result, tmp_path):
     assert not re.search(r"https?:|@import|url\(|<link|<img|<iframe", markup)
     assert not re.search(r"<script[^>]*\bsrc", page) and "plotly.js v" in unpacked(page)
     links = re.findall(r'href="#([^"]*)"', markup)
-    assert all(f'<section id="{name}">' in markup for name in links)
+    assert all(re.search(rf'<(section|details class="fold notes") id="{name}"', markup) for name in links)
     figures = figures_of(page)
     assert [f["name"] for f in figures] == re.findall(r'class="plot" id="plot-(\w+)"', markup)
     for figure in figures:
@@ -245,6 +245,13 @@ def test_comparison_begins_with_what_one_asks_first(comparison, tmp_path):
     assert [t["name"] for t in orders["data"]] == ["measured", "predicted"]
     assert '<ul class="warnings">' not in page or page.index('<div class="cards">') < page.index('<ul class="warnings">')
     assert counted(1, "condition") == "1 condition" and counted(2, "run") == "2 runs"
+
+
+def test_notes_of_a_comparison_stand_behind_its_key_figures(comparison, tmp_path):
+    """They stood before them, as in no other view."""
+    figure = KeyFigure("hysteresis", "20 degC", "lost motion", "rad", 3e-4, 4e-4, 1e-6, 3, True)
+    page = written(replace(comparison, figures=[figure], warnings=["said of it"]), tmp_path)
+    assert page.index('<section id="figures">') < page.index("said of it") < page.index('<section id="runs">')
 
 
 def test_diagnosis_of_one_effect(answer, tmp_path):

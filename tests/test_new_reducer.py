@@ -423,7 +423,7 @@ def test_what_was_completed_from_other_teeth_is_outdated_when_somebody_changes_t
     assert 'reducer.description says "ratio 81, rated 412 N m at 15 rpm", and would be "ratio 83, rated 412 N m at 15 rpm of the output' in said
     assert main(["reducer", "check", str(path)]) == 0
     assert f"completed anew with what the file gives: {found.completing}" in " ".join(capsys.readouterr().out.split())
-    assert findings(load_reducer(path)) == [*found.outdated, f"of a number that was measured say so as its source; the others are completed anew by: {found.completing}"]
+    assert findings(found) == [*found.outdated, f"of a number that was measured say so as its source; the others are completed anew by: {found.completing}"]
     anew = tmp_path / "anew.toml"
     assert main([*shlex.split(found.completing)[1:], "--output", str(anew), "-q"]) == 0
     assert not check(load_reducer(anew)).doubts and load_reducer(anew).name == "ratio-83-412Nm"

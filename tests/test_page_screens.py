@@ -33,6 +33,19 @@ def file(tmp_path_factory):
     return path
 
 
+def test_notes_may_stand_behind_a_section_folded_where_they_are_many():
+    """Four notes filled a telephone's second screen before any figure."""
+    def rendered(count, behind):
+        texts = [f"note {k}" for k in range(count)]
+        return rendered_sections(Page("kind", "title", "", "", [], [Section("one", "One", ""), Section("two", "Two", "")], texts, behind))
+
+    many = rendered(4, "one")
+    assert many.index('<section id="one">') < many.index("note 0") < many.index('<section id="two">')
+    assert '<details class="fold notes" id="notes"><summary>4 notes</summary>' in many and '<a href="#notes">4 notes</a>' in many
+    assert '<details class="fold notes" id="notes" open><summary>1 note</summary>' in rendered(1, "one") and "fold notes" not in rendered(0, "one")
+    assert rendered(4, "").index("note 0") < rendered(4, "").index('<section id="one">')
+
+
 def opened(chromium, file, width, scheme):
     page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
     page.goto(file.as_uri())

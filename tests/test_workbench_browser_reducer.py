@@ -84,7 +84,7 @@ def test_a_new_reducer_takes_the_gap_of_its_lost_motion_and_a_box_refuses_one_th
     page.get_by_text(re.compile("1 of the catalogue; taken for it: ")).wait_for()
     row = page.locator("tr", has=page.locator("[id='n-disc.equidistant_modification']"))
     assert "makes the lost motion that of the catalogue" in row.inner_text() and row.locator("input.changed").count() == 0
-    assert "um/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
+    assert "µm/kN" in page.locator("tr", has=page.locator("[id='n-crank.support_compliance']")).inner_text()
     # What cannot be made says what to type, and where one types it stays.
     page.fill("#ask-lost_motion", "0.1")
     page.get_by_text("type bearing.clearance in 'Every number of its file' below").wait_for()

@@ -39,9 +39,9 @@ sensor_drift = { value = 0.02 }
     effects = "RV20E-121 with hole position errors, sensor drift"
     assert found["title"] == "model.toml (RV20E-121) with hole position errors, sensor drift" and found["lead"].startswith(f"The model is {effects}. Of the reducer: ")
     rows = {row["name"]: (row["value"], row["unit"], row["source"]) for row in (*found["added"], *found["numbers"])}
-    assert rows["effects.hole_position_errors.disc_hole_shift_1"] == ("4.0000", "um", "model.toml, interval 3.9950 to 4.0050")
+    assert rows["effects.hole_position_errors.disc_hole_shift_1"] == ("4.0000", "µm", "model.toml, interval 3.9950 to 4.0050")
     assert rows["effects.sensor_drift.sensor_drift"] == ("0.020000", "", "model.toml")
-    assert rows["bearing.clearance"] == ("3.0000", "um", "model RV20E-121")
+    assert rows["bearing.clearance"] == ("3.0000", "µm", "model RV20E-121")
     plain = shown(folder, "RV20E-121")["reducer"]
     # Drawn with the forces that it has.
     carried = [int(shown(folder, name)["reducer"]["figures"][1]["caption"].split()[5]) for name in ("without.toml", "model.toml")]

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
 from fmu_src.held_file import held
 from fmu_src.progress import task
+from pages.words import micro
 from workbench.folder import Folder
 from workbench.form import number, settings_of, whole
 from workbench.told import write_json
@@ -21,10 +20,8 @@ if TYPE_CHECKING:
     from studies.ensemble.figures import Outcome
 
 FILE = "ensemble.toml"
-QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
-# Points of a band over the hours, and how often the page is told [s].
-POINTS, OFTEN = 41, 1.0
-UNITS = {"um": "µm", "arcmin": "arcmin", "arcsec": "arcsec"}
+# How often the page is told [s].
+OFTEN = 1.0
 # Of the optional part "ensembles".
 NEEDED = ("SALib", "dask", "distributed", "joblib")
 
@@ -42,6 +39,7 @@ def ensemble(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> b
 def lives(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from fmu_src.source_hash import source_hash
     from studies.ensemble.backends import through_joblib
+    from studies.ensemble.bands import kept
     from studies.ensemble.ensemble_file import load_ensemble
     from studies.ensemble.member import run
     from studies.ensemble.sampling import tasks_of
@@ -66,14 +64,14 @@ def lives(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool
                     living.advance(int(store.add(life)))
                     if time.monotonic() - told > OFTEN:
                         told = time.monotonic()
-                        write_json(place / "live.json", bands(drawn, store.lives, len(tasks)))
+                        write_json(place / "live.json", shown(drawn, store.lives, len(tasks)))
         except KeyboardInterrupt:
             arriving.close()
             stopped = True
         found = summarise(drawn, store.lives, len(tasks))
-        write_json(path, found)
+        write_json(path, kept(found, drawn, store.lives, len(tasks)))
     write_json(place / "result.json", {
-        **bands(drawn, store.lives, len(tasks)), "summary": found, "file": path.relative_to(folder.root).as_posix(),
+        **shown(drawn, store.lives, len(tasks)), "summary": found, "file": path.relative_to(folder.root).as_posix(),
         "command": f"rvwear ensemble {shlex.quote(str(file))} --output {shlex.quote(str(path))}",
     })  # fmt: skip
     return stopped
@@ -87,23 +85,12 @@ def opened(store: Any, path: Path, identity: dict[str, Any]) -> Any:
         return store(path, identity, restart=True)
 
 
-def bands(drawn: "Ensemble", found: "Mapping[int, Outcome]", planned: int) -> dict[str, Any]:
-    """Quantiles of each figure over common hours, of the lives that stand for the distributions."""
-    from studies.ensemble.figures import FIGURES
-    from studies.ensemble.sampling import independent_rows
+def shown(drawn: "Ensemble", found: "Mapping[int, Outcome]", planned: int) -> dict[str, Any]:
+    """The bands in the page's units."""
+    from studies.ensemble.bands import bands
 
-    rows = [found[n] for n in independent_rows(drawn).tolist() if n in found and "fault" not in found[n]]
-    hours = drawn.hours * np.linspace(0.0, 1.0, POINTS) ** 2
-    panes = []
-    for name, meaning in FIGURES.items():
-        curves = np.array([np.interp(hours, life["hours"], life["figures"][name]) for life in rows])
-        if len(rows) > 1:
-            base, _, unit = name.rpartition("_")
-            panes.append({
-                "name": name, "title": base.replace("_", " "), "meaning": meaning, "unit": UNITS.get(unit, unit), "limit": drawn.limits.get(name),
-                "quantiles": np.quantile(curves, QUANTILES, axis=0).tolist(),
-            })  # fmt: skip
-    return {"hours": hours.tolist(), "panes": panes, "lives": len(found), "counted": len(rows), "planned": planned, "shares": list(QUANTILES)}
+    told = bands(drawn, found, planned)
+    return told | {"panes": [pane | {"unit": micro(pane["unit"])} for pane in told["panes"]]}
 
 
 def text_of(folder: Folder, given: Mapping[str, Any]) -> str:

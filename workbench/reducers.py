@@ -18,8 +18,8 @@ from fmu_src.display import display_unit
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.units import conversion
 from pages.content import Card
-from pages.words import number
-from reducers.checking import check
+from pages.words import in_print, number
+from reducers.checking import Check, check
 from reducers.completion.command import usual_name, words_of
 from reducers.completion.complete import UNITS, Completion
 from reducers.completion.file import text_of
@@ -30,8 +30,8 @@ from reducers.reducer import Reducer, reducer_of
 from studies.catalogue_lost_motion import Meets, as_in_catalogue
 from studies.catalogue_targets import LOST_MOTION, Target, asked_of, targets_of
 from studies.hysteresis import hysteresis
-from studies.report.assembly import assembly, zoom
 from studies.report.completed import page_of
+from studies.report.not_made import drawings
 from workbench import form
 from workbench.folder import CAMPAIGN, NAME, Folder
 from workbench.form_words import in_form
@@ -54,7 +54,7 @@ def shown(folder: Folder, model: str) -> dict[str, Any]:
                              "completes": sorted(UNITS.keys() - FROM_OPTIONS.keys())}  # fmt: skip
     if model:
         file = load_model(folder.model({"model": model}))
-        found["reducer"] = described(file) | headed(file) | {"added": added(file), "open": left_open_in(file, folder)}
+        found["reducer"] = described(file) | headed(file) | {"added": in_print(added(file)), "open": in_print(left_open_in(file, folder))}
     return found
 
 
@@ -93,12 +93,14 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
 def described(file: ModelFile) -> dict[str, Any]:
     """Drawn as it is, effects included; these stand beside its numbers, not among them: what scatters in many lives is chosen from the numbers."""
     drawn, reducer = extended_reducer(file), extended_reducer(replace(file, effects={}))
-    whole = assembly(drawn, None)
+    checked = check(reducer)
+    figures, without = drawings(drawn, checked.place if checked.faults else None)
     t = reducer.topology
     return {
         "speed": speed_of(reducer),
         "counts": {"discs": t.discs, "cranks": t.cranks, "pins": t.pins, "lobes": t.lobes, "rollers": t.rollers, "output pins": t.output_pins},
-        "figures": [figure_data(whole), figure_data(zoom(whole, drawn))], "numbers": numbers(reducer), "findings": findings(reducer),
+        "figures": [*map(figure_data, figures)], "numbers": in_print(numbers(reducer)), "findings": in_print(findings(checked)),
+        "doubts": in_print([*(text for text in checked.doubts if text not in checked.outdated), *filter(None, [without])]),
     }  # fmt: skip
 
 
@@ -129,13 +131,12 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
     return rows
 
 
-def findings(reducer: Reducer) -> list[str]:
+def findings(checked: Check) -> list[str]:
     """What cannot be made, is outdated, or lies where its own file says that it does not; in words with place, value and bound."""
-    checked = check(reducer)
     found = [*map(plainly, checked.faults), *checked.outdated]
     if checked.outdated:
         found.append(f"of a number that was measured say so as its source; the others are completed anew by: {checked.completing}")
-    found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(reducer) if row["outside"]]
+    found += [f"{row['name']} = {row['value']} {row['unit']}: outside of its range, {row['range']}" for row in numbers(checked.reducer) if row["outside"]]
     return found
 
 
@@ -165,8 +166,8 @@ def completed(folder: Folder, given: Mapping[str, Any]) -> dict[str, Any]:
     cards = test_cards(reducer, completion, stiffness)
     page = replace(page, cards=[*page.cards, *cards], warnings=[*map(plainly, page.warnings)])
     words = [*words_of(completion.given), "--name", name]
-    found = {"name": name, "saved": saved, "findings": findings(reducer)}
-    return {"page": page_data(page), "numbers": rows_of(completion), **found, "command": shlex.join(words)}
+    found = {"name": name, "saved": saved, "findings": in_print(findings(check(reducer)))}
+    return {"page": page_data(page), "numbers": in_print(rows_of(completion)), **found, "command": shlex.join(words)}
 
 
 def test_cards(reducer: Reducer, completion: Completion, stiffness: float | None) -> list[Card]:

@@ -11,17 +11,18 @@ from fmu_src.checked_file import write_text
 from pages.content import Page, Table
 from pages.look import Figure
 from pages.render import described
+from pages.words import in_print
 from workbench.page_words import on_page
 
 
 def page_data(page: Page) -> dict[str, Any]:
     """The same content as the page's file has, in words of the workbench."""
     return {
-        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": on_page(page.finding),
-        "warnings": [on_page(text) for text in page.warnings],
-        "cards": [asdict(card) | {"note": on_page(card.note)} for card in page.cards],
+        "kind": page.kind, "title": page.title, "conditions": page.conditions, "finding": in_print(on_page(page.finding)),
+        "warnings": [in_print(on_page(text)) for text in page.warnings],
+        "cards": [in_print(asdict(card) | {"note": on_page(card.note)}) for card in page.cards],
         "sections": [
-            {"id": s.id, "title": s.title, "lead": on_page(s.lead), "figures": [figure_data(f) for f in s.figures], "tables": [table_data(t) for t in s.tables]}
+            {"id": s.id, "title": s.title, "lead": in_print(on_page(s.lead)), "figures": [*map(figure_data, s.figures)], "tables": [*map(table_data, s.tables)]}
             for s in page.sections
         ],
     }  # fmt: skip
@@ -35,7 +36,7 @@ def figure_data(figure: Figure) -> dict[str, Any]:
 
 
 def table_data(table: Table) -> dict[str, Any]:
-    return {"title": table.title, "head": table.head, "rows": table.rows, "right": list(table.right), "note": table.note,
+    return {"title": table.title, "head": table.head, "rows": in_print(table.rows), "right": list(table.right), "note": table.note,
             "whys": [asdict(w) for w in table.whys], "folded": table.folded}
 
 

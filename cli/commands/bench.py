@@ -17,7 +17,7 @@ NAMES = ("lost-motion", "dynamic-lost-motion", "stiffness", "transmission-error"
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     bench = sub.add_parser("bench", help="standard tests: lost motion, stiffness, transmission error, efficiency, torques")
-    bench.add_argument("--standard", required=True, choices=NAMES, help="which test")
+    bench.add_argument("--standard", required=True, choices=NAMES, metavar="TEST", help=f"which: {', '.join(NAMES)}")
     add_reducer_options(bench, positions=False)
     bench.add_argument("--measured", metavar="FILE", help="evaluate this file by the same code instead (CSV, MAT, MDF, TDMS, Parquet)")
     bench.add_argument("--column", action="append", default=[], metavar="NAME=HEADER:UNIT",

@@ -3,12 +3,12 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
-from cli.options import add_json
-from cli.written import say_file
+from cli.options import add_json, page_path
+from cli.written import only_file, say_file
 from exports.plain import plain_json
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
@@ -32,7 +32,8 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     command.add_argument("--output", help="result (default results/NAME_ensemble.json); finished lives are kept beside it")
     command.add_argument("--restart", action="store_true", help="discard the lives that are there")
     add_json(command, "result as JSON on stdout")
-    add_exports(command, pictures=False)
+    command.add_argument("--html", metavar="FILE", help="write a page: bands over the hours, hours to the limits, what matters")
+    add_exports(command)
     command.set_defaults(run=ensemble)
 
 
@@ -55,6 +56,7 @@ def compute(options: argparse.Namespace) -> int:
     if options.jobs == 0:
         raise InputFault("--jobs 0: give a number of processes, or -1 for one per core")
     check_exports(options)
+    page_path(options.html)
     drawn = load_ensemble(options.file, options.samples)
     path = Path(options.output or f"results/{Path(options.file).stem}_ensemble.json")
     if path.suffix != ".json":
@@ -69,6 +71,7 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
     from cli.show.ensemble import show
     from fmu_src.source_hash import source_hash
     from studies.ensemble.backends import through_dask, through_joblib
+    from studies.ensemble.bands import kept
     from studies.ensemble.member import run
     from studies.ensemble.sampling import tasks_of
     from studies.ensemble.store import Store
@@ -93,14 +96,30 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
         interrupted = exit_code(interruption)
         print(f"interrupted with {len(store.lives)} of {len(tasks)} lives; the same command goes on", file=sys.stderr)
     found = summarise(drawn, store.lives, len(tasks)) | {"lives": str(store.path)}
+    found = kept(found, drawn, store.lives, len(tasks))
     write_text(path, plain_json(found, indent=1) + "\n")
     if options.json:
         screen.json_text(found)
     else:
         show(found)
         say_file(path, "result  ")
-    if options.export:
+    if options.html:
+        write_page(found, Path(options.html))
+        if options.json:
+            only_file(options.html)
+        else:
+            say_file(options.html, "page    ")
+    if options.export or options.picture:
         from studies.ensemble.tables import tables_of
+        from studies.report.lives import figures_of
 
-        write_exports(options, lambda: tables_of(found), lambda: ())
+        write_exports(options, lambda: tables_of(found), lambda: figures_of(found))
     return interrupted
+
+
+def write_page(found: dict[str, Any], path: Path) -> None:
+    from pages.render import rendered_sections, written
+    from studies.report.lives import page_of
+
+    with task("drawing"):
+        written(rendered_sections(page_of(found)), path)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from studies.kept_life import WantedLife
 
 REMEDY = "rvwear life with --reuse computes it again"
+# What rvwear ensemble writes.
+ENSEMBLE = ".json"
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -57,13 +59,13 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_json(dynamics)
     dynamics.set_defaults(run=dynamics_wear)
 
-    page = sub.add_parser("report", help="write the HTML report of a life result again")
-    page.add_argument("result", help="result file of rvwear life (.nc)")
+    page = sub.add_parser("report", help="write the HTML report of a result again: of a life, or of many lives")
+    page.add_argument("result", help="result file of rvwear life (.nc) or rvwear ensemble (.json)")
     page.add_argument("--output", help="report file (default beside the result)")
     page.set_defaults(run=report)
-    files = sub.add_parser("export", help="a result file (.nc) for other programs, or as pictures for a paper")
-    files.add_argument("result", help="result file of rvwear life or rvwear run (.nc)")
-    files.add_argument("files", nargs="+", metavar="FILE", help="what to write: .csv, .parquet, .mat, .xlsx; of a life .svg, .pdf, .png too")
+    files = sub.add_parser("export", help="a result file for other programs, or as pictures for a paper")
+    files.add_argument("result", help="result file of rvwear life or rvwear run (.nc), or of rvwear ensemble (.json)")
+    files.add_argument("files", nargs="+", metavar="FILE", help="what to write: .csv, .parquet, .mat, .xlsx; of lives .svg, .pdf, .png too")
     files.add_argument("--width", metavar="WIDTH", help=WIDTH_HELP)
     files.set_defaults(run=export)
 
@@ -190,8 +192,17 @@ def report(options: argparse.Namespace) -> int:
 
     path = Path(options.result)
     if not path.is_file():
-        raise InputFault(f"no result file at {path}{nearest_path(path)}; rvwear life writes one")
+        raise InputFault(f"no result file at {path}{nearest_path(path)}; {'rvwear ensemble' if path.suffix == ENSEMBLE else 'rvwear life'} writes one")
     page = Path(options.output) if options.output else path.with_suffix(".html")
+    if path.suffix == ENSEMBLE:
+        from cli.commands.ensemble import write_page
+        from studies.report.lives import REMEDY as AGAIN
+        from studies.report.lives import WHAT, read_result
+
+        with reading(path, WHAT, AGAIN):
+            write_page(read_result(path), page)
+        say_file(page)
+        return 0
     try:
         dataset = netcdf.read(path)
         with reading(path, "a result of rvwear life", REMEDY):
@@ -212,8 +223,22 @@ def export(options: argparse.Namespace) -> int:
     options.picture = [name for name in options.files if Path(name).suffix.lower() in ENDINGS]
     options.export = [name for name in options.files if name not in options.picture]
     check_exports(options)
+    if Path(options.result).suffix == ENSEMBLE:
+        return export_ensemble(options, Path(options.result))
     dataset = netcdf.read(Path(options.result))
     if options.picture and "hour" not in dataset.dims:
         raise InputFault(f"{options.result} holds no life, which {' and '.join(options.picture)} would show: .csv, .parquet, .mat and .xlsx take any result")
     write_exports(options, lambda: tables_of(dataset), lambda: figures_of(dataset))
+    return 0
+
+
+def export_ensemble(options: argparse.Namespace, path: Path) -> int:
+    from studies.ensemble.tables import tables_of
+    from studies.report.lives import REMEDY as AGAIN
+    from studies.report.lives import WHAT, figures_of, read_result
+
+    with reading(path, WHAT, AGAIN):
+        found = read_result(path)
+        tables, figures = tables_of(found), figures_of(found)
+    write_exports(options, lambda: tables, lambda: figures)
     return 0

@@ -29,7 +29,7 @@ def show(found: dict[str, Any]) -> None:
     if not shown:
         return
     table = dense("share of the variance that a parameter makes, alone / with all interactions")
-    table.add_column("parameter")
+    table.add_column("parameter", overflow="fold")
     for name in shown:
         table.add_column(name.rpartition("_")[0].replace("_", "\n"), justify="right")
     for parameter in sorted(next(iter(shown.values()))):

@@ -52,6 +52,7 @@ def page(result: Comparison) -> Page:
         cards(result),
         sections,
         list(dict.fromkeys(result.warnings)),
+        sections[0].id if result.figures else "",
     )
 
 

@@ -110,7 +110,7 @@ ASSUMED = (
     Dial("wear.race_coefficient", "wear of the races, in laws with a constant coefficient", "1", 3e-9, 6e-10, 1.5e-8,
          "assumed: what the Janakiraman law gives at 650 N"),
     Dial("wear.run_in_ratio", "wear at the start over later wear", "1", 5.0, 3.0, 10.0, "assumed: running-in wears 3 to 10 times faster"),
-    Dial("wear.run_in_time", "duration of running-in", "hour", 300.0, 50.0, 500.0, "assumed: 50 to 500 h at rated speed"),
+    Dial("wear.run_in_time", "duration of running-in", "h", 300.0, 50.0, 500.0, "assumed: 50 to 500 h at rated speed"),
     Dial("wear.load_exponent", "exponent of the line load in mesh wear", "1", 0.3, 0.0, 0.6, "assumed"),
     Dial("wear.reference_line_load", "line load at which the coefficient holds", "N/m", 5e4, 3e4, 8e4, "assumed: near the peak load"),
     Dial("wear.roughness", "composite roughness of roller and race", "um", 0.4, 0.25, 0.8, "assumed: ground raceways"),

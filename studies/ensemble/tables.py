@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from exports.tables import Table, rows_table
+from exports.tables import Column, Table, rows_table
 from studies.figure_units import figure_unit
 
 
@@ -17,7 +17,16 @@ def tables_of(found: dict[str, Any]) -> list[Table]:
         {"figure": name, "parameter": parameter, "alone": row["alone"], "with_interactions": row["total"]}
         for name, rows in found.get("sensitivity", {}).items() for parameter, row in rows.items()
     ]  # fmt: skip
-    return [rows_table("distributions", distributions, {}), rows_table("sensitivity", shares, {})]
+    return [rows_table("distributions", distributions, {}), rows_table("sensitivity", shares, {}), *([bands_table(found["bands"])] if "bands" in found else [])]
+
+
+def bands_table(bands: dict[str, Any]) -> Table:
+    """Quantiles of each figure over the hours."""
+    columns = [
+        Column(f"{pane['name'].rpartition('_')[0]}_q{round(100 * share):02d}", pane["unit"], row)
+        for pane in bands["panes"] for share, row in zip(bands["shares"], pane["quantiles"])
+    ]  # fmt: skip
+    return Table("bands", (Column("hours", "h", bands["hours"]), *columns) if columns else ())
 
 
 def numbers(value: dict[str, float | None]) -> dict[str, float]:

@@ -21,6 +21,9 @@ from studies.report.shapes import MM, directions, joined, ring
 
 # Points per lobe, and the length of the largest force in pin circle radii.
 PER_LOBE, LONGEST_FORCE = 48, 0.22
+EVENLY = np.linspace(-math.pi, math.pi, PER_LOBE, endpoint=False)
+# So near to 1 the root of a profile is a cusp, which has no normal: it is drawn a little beyond.
+CUSP = 1e-6
 # Of a drawing's width, the longest that its scale may be.
 SCALE_SHARE = 0.2
 DISC_COLOURS = ("#0b4f94", "#d55e00", "#009e73")
@@ -55,15 +58,22 @@ def eccentric(reducer: Reducer, d: int) -> complex:
     return complex(MM * reducer.starts["eccentricity"] * np.exp(2j * math.pi * d / reducer.topology.discs))
 
 
-def outline(reducer: Reducer, d: int) -> Points:
-    """The unmodified flank of disc ``d`` [mm], closed, shape (lobes * PER_LOBE,)."""
-    lobes, s = reducer.topology.lobes, reducer.starts
-    k1 = shortening(s["eccentricity"], lobes, s["pin_circle_radius"])
-    phases = np.linspace(-math.pi, math.pi, PER_LOBE, endpoint=False)
-    rows = np.array([lobe_point(phi, lobes, s["pin_circle_radius"], s["pin_radius"], s["eccentricity"], k1)[:2] for phi in phases])
+def outline(reducer: Reducer, d: int, phases: Floats = EVENLY) -> Points:
+    """The unmodified flank of disc ``d`` [mm], closed, at the local ``phases`` [rad] of each lobe."""
+    lobes = reducer.topology.lobes
     # The profile of disc d is cut turned against its holes, so that all discs mesh.
     turns = np.exp(2j * math.pi * (np.arange(lobes) - d / reducer.topology.discs) / lobes)
-    return np.asarray(eccentric(reducer, d) + MM * (turns[:, None] * (rows[:, 0] + 1j * rows[:, 1])).ravel())
+    return np.asarray(eccentric(reducer, d) + (turns[:, None] * lobe_flank(reducer, phases)).ravel())
+
+
+def lobe_flank(reducer: Reducer, phases: Floats) -> Points:
+    """The unmodified flank of one lobe [mm] from the middle of its disc, its root at angle 0, at local phases [rad]."""
+    lobes, s = reducer.topology.lobes, reducer.starts
+    k1 = shortening(s["eccentricity"], lobes, s["pin_circle_radius"])
+    if abs(k1 - 1.0) < CUSP:
+        k1 = 1.0 + CUSP
+    rows = np.array([lobe_point(phi, lobes, s["pin_circle_radius"], s["pin_radius"], s["eccentricity"], k1)[:2] for phi in phases])
+    return np.asarray(MM * (rows[:, 0] + 1j * rows[:, 1]))
 
 
 def pin_places(reducer: Reducer) -> Points:
@@ -98,29 +108,37 @@ def pin_forces(reducer: Reducer) -> Floats:
 
 def assembly(reducer: Reducer, diameter: float | None) -> Figure:
     """All parts; ``diameter`` of the housing [mm] where it is known."""
+    off = parts_off(reducer)
+    times = enlarged(reducer, off)
+    traces = [*contours(reducer, diameter), *forces(reducer), *(trace for parts in off for trace in off_traces(parts, times))]
+    said = f" Forces of flanks on pins at rated torque stand on their contacts, as long as they are large.{off_words(reducer, off, times)}"
+    return framed(reducer, diameter, traces, said)
+
+
+def contours(reducer: Reducer, diameter: float | None, phases: Floats = EVENLY) -> list[Trace]:
+    """The parts alone, whatever becomes of them under load."""
     s, t = reducer.starts, reducer.topology
-    # Without a housing as far as the longest force may stand out.
-    reach = 1.02 * ((1.0 + 0.8 * LONGEST_FORCE) * MM * s["pin_circle_radius"] if diameter is None else 0.5 * diameter)
     traces = [] if diameter is None else [path(ring(0.5 * diameter), look.QUIET, 1.5)]
     traces += [path(ring(MM * s["pin_circle_radius"]), look.GRID, 1.0, dash="dot")]
     for d in reversed(range(t.discs)):
         fill = {"fill": "toself", "fillcolor": look.STEEL} if d == 0 else {}
-        traces.append(path(outline(reducer, d), DISC_COLOURS[d], 1.2, close=True) | fill | {"name": f"disc {d + 1}", "showlegend": True})
+        traces.append(path(outline(reducer, d, phases), DISC_COLOURS[d], 1.2, close=True) | fill | {"name": f"disc {d + 1}", "showlegend": True})
     traces += cranks(reducer)
     traces.append(path(joined([ring(MM * s["pin_radius"], place, 32) for place in pin_places(reducer)]), look.INK, 0.9))
-    traces += forces(reducer)
-    off = parts_off(reducer)
-    times = enlarged(reducer, off)
-    traces += [trace for parts in off for trace in off_traces(parts, times)]
+    return traces
+
+
+def framed(reducer: Reducer, diameter: float | None, traces: list[Trace], said: str) -> Figure:
+    """Traces of the whole with a scale; ``said`` of them beside what all drawings have."""
+    # Without a housing as far as the longest force may stand out.
+    reach = 1.02 * ((1.0 + 0.8 * LONGEST_FORCE) * MM * reducer.starts["pin_circle_radius"] if diameter is None else 0.5 * diameter)
     bar, length = scale_bar(0j, reach, -1.0 - 1.0j)
     traces = [{"showlegend": False} | trace for trace in [*traces, bar]]
     picture = look.drawing([-reach, reach], [-reach, reach]) | {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 0, "yanchor": "top"}}
     picture["annotations"] = [length]
     picture["margin"] = {"l": 4, "r": 4, "t": 4, "b": 36}
     return Figure(
-        "assembly", "The parts to scale",
-        "Crank angle 0, seen along the axis; disc 1 is filled, the first stage's pitch circles are dashed."
-        f" Forces of flanks on pins at rated torque stand on their contacts, as long as they are large.{off_words(reducer, off, times)}",
+        "assembly", "The parts to scale", f"Crank angle 0, seen along the axis; disc 1 is filled, the first stage's pitch circles are dashed.{said}",
         traces, picture, 7, aspect="1 / 1.05",
     )  # fmt: skip
 
@@ -130,14 +148,19 @@ def zoom(whole: Figure, reducer: Reducer) -> Figure:
     force = pin_forces(reducer)[0]
     centre = pin_places(reducer)[int(force.argmax())]
     half = 3.2 * MM * reducer.starts["pin_circle_radius"] * math.sin(math.pi / reducer.topology.pins)
+    caption = f"The most loaded pin carries {force.max():,.0f} N; {int((force > 0.0).sum())} of {force.size} pins touch disc 1."
+    if times := enlarged(reducer, parts_off(reducer)):
+        caption += f" Errors are drawn {times:,.0f} times."
+    return zoomed(whole, centre, half, "Teeth and pins", caption)
+
+
+def zoomed(whole: Figure, centre: complex, half: float, title: str, caption: str) -> Figure:
+    """``half`` [mm] of a drawing to each side of a place of it."""
     picture = look.drawing([centre.real - half, centre.real + half], [centre.imag - half, centre.imag + half])
     # Outside of the discs there is room.
     bar, length = scale_bar(centre, half, complex(math.copysign(1.0, centre.real), math.copysign(1.0, centre.imag)))
     picture["annotations"] = [length]
-    caption = f"The most loaded pin carries {force.max():,.0f} N; {int((force > 0.0).sum())} of {force.size} pins touch disc 1."
-    if times := enlarged(reducer, parts_off(reducer)):
-        caption += f" Errors are drawn {times:,.0f} times."
-    return Figure("teeth", "Teeth and pins", caption, [*whole.data, bar | {"showlegend": False}], picture, 5, aspect="1 / 1.05")
+    return Figure("teeth", title, caption, [*whole.data, bar | {"showlegend": False}], picture, 5, aspect="1 / 1.05")
 
 
 def scale_bar(centre: complex, half: float, corner: complex) -> tuple[Trace, Layout]:

@@ -102,6 +102,7 @@ export function show(root, context) {
         r.speed ? `; ${r.speed}` : "",
       ),
       r.findings.map((t) => note(t, "bad")),
+      r.doubts.length ? h("div", { id: "doubts" }, r.doubts.map((t) => note(`doubtful: ${t}`))) : null,
       r.open.length ? h("div", { id: "open-places" }, r.open.map((t) => note(t))) : null,
       h("div", { class: "grid" }, r.figures.map(figure)),
       numbers([...r.added, ...r.numbers]),

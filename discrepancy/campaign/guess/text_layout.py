@@ -10,6 +10,7 @@ from typing import Any
 
 from discrepancy.campaign.readers import ReadFault
 from discrepancy.campaign.readers.csv import COMMENT, first_lines, opened, scan, sniff_delimiter
+from discrepancy.campaign.readers.encodings import FOUND
 from fmu_src.unit_words import unit_of
 
 MOST_LINES = 400
@@ -51,7 +52,7 @@ def layout_of(path: Path) -> Layout:
         raise ReadFault("no table of numbers in its first lines; name the table's columns in one line above it")
     best = max(cuts, key=lambda c: c.score)
     width = len(best.rows[best.first][1])
-    reading: dict[str, Any] = {"encoding": encoding} if encoding not in ("utf-8-sig", "utf-16", "cp1252", "gb18030", "cp932") else {}
+    reading: dict[str, Any] = {"encoding": encoding} if encoding not in FOUND else {}
     start, headers, units = head_of(best)
     names = headers
     if units:
