@@ -21,6 +21,9 @@ def test_null_is_none():
     model, _ = campaign(11, "null")
     result = diagnose(model)
     assert result.verdict == "none" and not result.effects
+    # What comes nearest is what chance makes least often, not what has the most parameters.
+    chances = [float(found[1]) for one in result.rejected if (found := re.search(r"p = (\S+) over", one["reason"]))]
+    assert len(chances) > 2 and chances == sorted(chances)
 
 
 def test_what_only_rough_predictions_show_is_no_effect():

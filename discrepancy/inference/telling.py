@@ -100,6 +100,10 @@ class Teller:
             if s.name not in names and not any(x["name"] == s.name for x in rejected):
                 rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: p = {s.p_adjusted:.2g} over all effects, "
                                  f"explains {chi_text(s.statistic)} of chi-square alone"})
+        if not members:
+            # Of what is not significant the nearest is that which chance makes least often, not that with the most parameters.
+            chances = {name: (score.p_adjusted, score.p_single) for name, score in self.scores.items()}
+            rejected.sort(key=lambda one: chances.get(one["name"], (1.0, 1.0)))
         correlations = {}
         if len(members) > 1 and not several:
             for k, a in enumerate(members):
