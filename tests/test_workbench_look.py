@@ -42,6 +42,23 @@ def test_orders_are_shown_by_their_amplitude():
     assert amplitudes_of(np.array([78.0, 1.0, 78.0, 1.0]), np.array([3.0, 0.0, 4.0, -2.0])).tolist() == [2.0, 5.0]
 
 
+def test_a_missing_sample_leaves_the_orders_and_a_large_gap_says_why_there_are_none():
+    """One #NV in each file, and orders, waterfall and hovering were gone without a word."""
+    from discrepancy.page.runs import Run
+    from discrepancy.problem import Record
+    from workbench.look import orders_of
+
+    def run(condition, rows):
+        angle = np.delete(np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False), rows)
+        record = Record(f"r_{condition}", "transmission_error", "rad", condition, 1, np.cos(7 * angle), {"angle": angle}, {})
+        return Run(record, np.ones(len(angle), bool), record.values, 0.5 * record.values, np.ones(len(angle)), np.zeros(len(angle), bool))
+
+    [told], why = orders_of([run("cold", [80]), run("cold", [90]), run("warm", range(50, 90))], 10.0)
+    assert (told["condition"], told["repetitions"], told["bridged"]) == ("cold", 2, "2 samples missing or far off are bridged.")
+    assert [told[name][7] for name in ("measured", "predicted", "residual")] == pytest.approx([10.0, 5.0, 5.0], rel=1e-3) and max(told["measured"][8:]) < 0.02
+    assert why.keys() == {"warm"} and why["warm"].startswith("r_warm: after 44.1 deg the angle leaps by 36.9 deg")
+
+
 def test_only_what_there_is_is_exported(tmp_path):
     from workbench.steps import STEPS, export_step
 

@@ -277,7 +277,9 @@ export function show(root, context) {
           `${members[0].stems ? `noise of an order ${number(members[0].noise, 3)}` : `the band is two standard deviations of the noise of a single run, ${number(2 * members[0].noise, 3)}`} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
         ),
       ),
-      signal.spectra?.length ? orders(signal, condition === "*" ? signal.spectra[0].condition : condition, result, plots) : null,
+      signal.spectra?.length || Object.keys(signal.no_orders ?? {}).length
+        ? orders(signal, condition === "*" ? (signal.spectra[0] ?? members[0]).condition : condition, result, plots)
+        : null,
     );
   }
 
