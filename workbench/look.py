@@ -20,6 +20,8 @@ from pages.words import number
 from workbench.doubts import apart, cells_of
 from workbench.page_words import on_page
 
+# Noise of a run that differs by less than this share is one number.
+EVEN = 1e-3
 # A prediction for an axis with fewer samples is drawn with dots besides.
 FEW = 40
 # Samples of a run that is drawn at all.
@@ -128,12 +130,14 @@ def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -
     noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.measured.shape)
     # Drawn, but the axis is not stretched for them.
     aside = {"aside": np.flatnonzero(run.outlying).tolist()} if run.outlying.any() else {}
+    # Of each sample, for what the page divides by it, where one number does not say it.
+    noises = {"noises": columns.add(factor * noise)} if np.ptp(noise) > EVEN * np.median(noise) else {}
     return label(run, ratios) | {
         "samples": int(run.measured.size), "dots": run.measured.size < FEW,
         "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
         "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
         "zero": factor * run.zero,
-    } | aside  # fmt: skip
+    } | aside | noises  # fmt: skip
 
 
 def stems(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import { orders } from "./orders.js";
 import { dimmed, past } from "./past.js";
 import { Link, Plot } from "./plot.js";
 import { matcher } from "./search.js";
+import { rms } from "./shifted.js";
 
 const MOST_DRAWN = 4;
 
@@ -232,7 +233,14 @@ export function show(root, context) {
       label: `${signal.title}, measured and predicted over ${signal.axis.title}, residual in units of the noise below`,
     });
     plots.push(plot);
-    const fill = () => plot.set(spec({ part, shift, asMeasured, several: condition === "*" }, signal, members));
+    const left = h("span", { class: "quiet", id: "left-shifted" });
+    const fill = () => {
+      const drawn = spec({ part, shift, asMeasured, several: condition === "*" }, signal, members);
+      plot.set(drawn);
+      // Counted as the chips count it.
+      const errors = drawn.panes[1].lines.map((line, k) => ({ ratio: ((members[k].ratio ?? 0) * rms(line.y, line.aside)) / rms(part(members[k].residual), line.aside) }));
+      clear(left, shift && !members[0].stems ? `${times(ratio(errors))} as shifted; for looking only` : "");
+    };
     fill();
     const shifted = h("input", {
       type: "number",
@@ -270,7 +278,8 @@ export function show(root, context) {
               "the zero is free: draw it as measured",
             )
           : null,
-        h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
+        members[0].stems ? null : h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
+        left,
         h(
           "span",
           { class: "quiet" },
