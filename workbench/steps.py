@@ -244,7 +244,8 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
             written = write_pictures(page_of(made).figures, path, width_of("single"))
     option = "--export" if ending in TABLES else "--picture"
     files = [{"name": file.relative_to(folder.root).as_posix(), "bytes": file.stat().st_size} for file in written]
-    write_json(place / "result.json", {"files": files, "what": what, "command": f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"})
+    line = f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"
+    write_json(place / "result.json", {"files": files, "what": what, "begun": begun(folder, "export"), "command": line})
     return False
 
 

@@ -97,7 +97,7 @@ export function show(root, context) {
       body,
       bar(),
       fault,
-      exported(context, "compare"),
+      exported("compare"),
       dimmed(
         past(result, job, context),
         h("h1", {}, result.title),
@@ -296,13 +296,9 @@ export function show(root, context) {
   load();
   let seen = context.state?.jobs.compare?.begun + String(context.state?.jobs.compare?.state),
     busy = context.busy(),
-    exports = "",
     model = context.model();
   return {
     update(state) {
-      const written = `${state.jobs.export?.begun}${state.jobs.export?.state}`;
-      if (written !== exports && exports && result) draw();
-      exports = written;
       // What else is computed stands in the way of comparing.
       if (busy !== context.busy()) {
         busy = context.busy();
