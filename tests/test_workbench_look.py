@@ -166,3 +166,40 @@ def test_look_tells_calibrated_numbers_as_compare_does():
 
     assert told(0.0) == [{"name": "lag_share", "value": "1.017 ± 0.035", "meaning": "lag of the output"}]
     assert told(20.0)[0]["value"] == "1.017"
+
+
+def test_a_move_of_the_hand_goes_before_the_exact_curve(monkeypatch):
+    """It waited for its end: a median of 240 ms where the hand moved again after 0.6 s."""
+    import threading
+    import time
+
+    from fmu_src.threads import Once
+    from workbench import trying
+
+    computing, told = threading.Event(), []
+
+    def drawn(models, run, values, roughly):
+        kept = Once(100_000)
+        for n in range(0 if roughly else 20_000):
+            kept.get(n, lambda: time.sleep(1e-3))
+            computing.set()
+        return {"roughly": roughly}, np.zeros((5, 1))
+
+    def changes_of(found, values):
+        return drawn([found], "", values, False)
+
+    monkeypatch.setattr(trying, "drawn", drawn)
+    monkeypatch.setattr(trying, "changes_of", changes_of)
+    trial = trying.Trial()
+    for name in ("opened", "at_hand"):
+        monkeypatch.setattr(trial, name, lambda folder, model: object())
+    for slow in (lambda: trial.curve(None, "m", "r", {})[0], lambda: trial.everywhere(None, "m", {})):
+        computing.clear()
+        exact = threading.Thread(target=lambda: told.append(slow()))
+        exact.start()
+        assert computing.wait(10.0)
+        begun = time.perf_counter()
+        assert trial.curve(None, "m", "r", {}, roughly=True)[0] == {"roughly": True}
+        assert time.perf_counter() - begun < 2.0
+        exact.join(10.0)
+    assert told == [{"late": True}, None]
