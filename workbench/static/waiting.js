@@ -27,15 +27,16 @@ export function waiting({ busy, act, begin, changed, apart = () => false }) {
     queue.waits = waits;
     changed();
   };
-  // The same once is enough.
-  const others = (work) => queue.waits.filter((other) => (apart(other) ? JSON.stringify(other) !== JSON.stringify(work) : apart(work)));
+  // With what stands for itself, once; of the others with the last.
+  const others = (work) => (apart(work) ? queue.waits : queue.waits.filter(apart));
+  const waits = (work) => queue.waits.some((other) => apart(other) && JSON.stringify(other) === JSON.stringify(work));
   const attempt = (work) =>
     busy()
-      ? set([...others(work), work])
+      ? set(waits(work) ? queue.waits : [...others(work), work])
       : act(
           begin(work).catch((fault) => {
             if (fault.status === TAKEN) {
-              set([work, ...others(work)]);
+              set(waits(work) ? queue.waits : [work, ...others(work)]);
               return;
             }
             // What cannot be begun keeps nobody waiting.
