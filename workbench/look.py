@@ -10,11 +10,12 @@ from discrepancy.calibrated_deviations import deviations_of, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
-from discrepancy.page import amounts, comparison, spectra, whys
+from discrepancy.page import amounts, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis
 from fmu_src.arrays import Floats
+from pages.content import Page
 from pages.look import significant
 from pages.words import number
 from workbench.doubts import apart, cells_of
@@ -47,8 +48,8 @@ class Columns:
         return b"".join(self.parts)
 
 
-def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
-    """(all that is words and few numbers, the columns that it refers to)."""
+def view(result: Comparison, page: Page) -> tuple[dict[str, Any], bytes]:
+    """(all that is words and few numbers, the columns that it refers to), with what its ``page`` says."""
     model = result.model
     speed = of_axis("speed", model.campaign)
     space, place = result.diagnostician.space, result.diagnostician.localisation
@@ -56,7 +57,6 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     ratios = {r["run"]: r["ratio"] for r in result.runs}
     columns = Columns()
     named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
-    page = comparison.page(result)
     doubts, warnings = apart(page.warnings, model.campaign, result.scale_doubts)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
