@@ -3,7 +3,7 @@
 import math
 import threading
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -111,26 +111,30 @@ class Trial:
         if roughly:
             self.moves += 1
             with self.lock:
-                at_hand = [found for name in both if (found := self.at_hand(folder, name))]
+                at_hand = [open_now for name in both if (open_now := self.at_hand(folder, name))]
                 if len(at_hand) == len(both):
                     return drawn(at_hand, run, values, roughly)
             with self.slow, self.lock:
                 return drawn([self.opened(folder, name) for name in both], run, values, roughly)
-        with self.giving_way(folder, both) as found:
-            return drawn(found, run, values, roughly)
-        return {"late": True}, np.zeros((5, 0))
+        try:
+            with self.giving_way(folder, both) as found:
+                return drawn(found, run, values, roughly)
+        except Stopped:
+            return {"late": True}, np.zeros((5, 0))
 
     def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]] | None:
         """What the values would do to each signal; None where it gave way to a move of the hand."""
-        with self.giving_way(folder, (model,)) as (found,):
-            return changes_of(found, values)
-        return None
+        try:
+            with self.giving_way(folder, (model,)) as (found,):
+                return changes_of(found, values)
+        except Stopped:
+            return None
 
     @contextmanager
     def giving_way(self, folder: Folder, models: Sequence[str]) -> Iterator[list[Beside]]:
-        """The models, for what ends without a word where a move is asked for from now on."""
+        """The models, for what ends by ``Stopped`` where a move is asked for from now on."""
         known = self.moves
-        with self.slow, suppress(Stopped):
+        with self.slow:
             with self.lock:
                 found = [self.opened(folder, name) for name in models]
             with giving_way(lambda: self.moves > known):

@@ -75,7 +75,7 @@ def spectrum_of(run: Run) -> Spectrum:
     bridged = max(size - int(np.count_nonzero(np.abs(angle - angle[0]) < whole - 0.5 * step)), 0)
     if bridged > (1.0 - LEAST_KEPT) * size:
         raise InputFault(f"{name}: {bridged:,} of {size:,} samples are missing; orders need {100 * LEAST_KEPT:g} % of them")
-    orders = np.arange(min(size // turns // 2, MOST_ORDERS) + 1)
+    orders = np.arange(min(size // turns // 2, MOST_ORDERS) + 1.0)
     measured, predicted = (amplitudes(curve, orders) for curve in curves)
     return Spectrum(turns, 1, bridged, measured, predicted, measured - predicted)
 
