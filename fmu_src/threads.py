@@ -5,9 +5,10 @@ were where the work was asked for.
 """
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextvars import copy_context
+from contextlib import contextmanager
+from contextvars import ContextVar, copy_context
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
@@ -34,6 +35,25 @@ def sharing_no_matrices(function: Callable[Given, Result]) -> Callable[Given, Re
 
 class Stopped(BaseException):
     """Raised in a thread whose work nobody waits for any more."""
+
+
+# Looked at before anything is made anew: raises ``Stopped`` where nobody waits for the whole of it any more.
+GIVES_WAY: ContextVar[Callable[[], None] | None] = ContextVar("gives_way", default=None)
+
+
+@contextmanager
+def giving_way(to: Callable[[], bool]) -> Iterator[None]:
+    """What is computed inside ends, by ``Stopped``, soon after there is something ``to`` give way to; what was made by then is kept."""
+
+    def look() -> None:
+        if to():
+            raise Stopped
+
+    before = GIVES_WAY.set(look)
+    try:
+        yield
+    finally:
+        GIVES_WAY.reset(before)
 
 
 class Threads:
@@ -131,6 +151,8 @@ class Once:
                 future = self.found[key] = Future()
         if own:
             try:
+                if look := GIVES_WAY.get():
+                    look()
                 result = make()
                 with self.lock:
                     if self.found.get(key) is future:
@@ -141,4 +163,10 @@ class Once:
                     self.found.pop(key, None)
                 future.set_exception(problem)
                 raise
-        return future.result()  # type: ignore[return-value]
+        try:
+            return future.result()  # type: ignore[return-value]
+        except Stopped:
+            if own:
+                raise
+            # Only who made it was to end.
+            return self.get(key, make)

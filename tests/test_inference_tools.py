@@ -14,6 +14,7 @@ from discrepancy.inference.law.splines import additive
 from discrepancy.inference.misfit.features import features
 from discrepancy.inference.next_experiment import Experiment, RivalLaw, next_experiment, separation
 from discrepancy.inference.noise.correlation import autoregression_of, trend_of
+from discrepancy.inference.noise.whiten import autoregress
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.refit.refits import Refits, beside
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic
@@ -60,6 +61,19 @@ def test_a_column_without_any_part_in_the_noise_has_no_score():
     space = SimpleNamespace(noise=SimpleNamespace(dof=lambda component: 1e6))
     scores = simulate(space, {("te", "main"): gram}, 100, np.random.default_rng(0), {})
     assert np.all(np.isfinite(scores)) and not np.any(scores[:, 0])
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (5, 2), (40, 1), (40, 7)])
+def test_an_autoregression_is_taken_off_tap_by_tap(shape):
+    """To the last bit what arrays of a tap each had, which took a quarter of a comparison of two million samples."""
+    rng = np.random.default_rng(3)
+    columns, taps = rng.standard_normal(shape), np.array([0.4, -0.2, 0.1, 0.05, 0.9])
+    expected = columns.copy()
+    if len(columns) > taps.size:
+        for lag, tap in enumerate(taps[:-1], start=1):
+            expected[lag:] -= tap * columns[:-lag]
+        expected /= taps[-1]
+    assert np.array_equal(autoregress(columns, taps), expected) and np.array_equal(autoregress(columns[:, ::-1], taps), expected[:, ::-1])
 
 
 def test_autoregression_leaves_no_resonance():

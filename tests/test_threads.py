@@ -6,7 +6,7 @@ from contextvars import ContextVar
 
 import pytest
 
-from fmu_src.threads import Once, Stopped, Threads
+from fmu_src.threads import Once, Stopped, Threads, giving_way
 
 
 def test_results_come_in_the_order_of_the_items():
@@ -77,3 +77,34 @@ def test_a_run_that_failed_is_tried_again():
     with pytest.raises(ZeroDivisionError):
         kept.get("run", lambda: 1 / 0)
     assert kept.get("run", lambda: 7) == 7
+
+
+def test_what_gives_way_ends_before_it_makes_anything_anew_and_keeps_what_it_made():
+    kept, first = Once(10), []
+    with giving_way(lambda: bool(first)):
+        assert kept.get("a", lambda: 1) == 1
+        first.append("a move")
+        # What is there costs nothing.
+        assert kept.get("a", lambda: 2) == 1
+        with pytest.raises(Stopped):
+            kept.get("b", lambda: 3)
+    assert kept.get("b", lambda: 4) == 4
+
+
+def test_who_waits_for_what_was_to_end_makes_it_itself():
+    kept, begun = Once(10), threading.Event()
+
+    def ends():
+        begun.set()
+        time.sleep(0.05)
+        raise Stopped
+
+    def asked():
+        with pytest.raises(Stopped):
+            kept.get("run", ends)
+
+    other = threading.Thread(target=asked)
+    other.start()
+    begun.wait()
+    assert kept.get("run", lambda: 7) == 7
+    other.join()

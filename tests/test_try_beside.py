@@ -35,17 +35,17 @@ def cache(tmp_path, monkeypatch):
 
 
 def tried(trial, folder, run, values):
-    return trial.curve(folder, REDUCER, run, values, 1)[0]
+    return trial.curve(folder, REDUCER, run, values)[0]
 
 
 def test_a_large_effect_stands_where_the_diagnosis_found_it(folder, cache):
     """Discs off centre as they are made the curve look worse than it was without them: it stood at the zero of the base model.  Without a diagnosis it
     stands at the zero that suits it, but for cages and lag; while the hand moves at the last one."""
     trial = Trial()
-    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, 1, roughly=True)[0]["placed"].startswith(WITHOUT)
+    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, roughly=True)[0]["placed"].startswith(WITHOUT)
     before = {run: tried(trial, folder, run, HIDDEN) for run in ("at_160_1", "loop")}
     assert all(told["placed"].startswith(SUITS) and told["rms"][1] < 0.05 * told["rms"][0] for told in before.values())
-    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, 1, roughly=True)[0]["rms"][1] < 0.5
+    assert trial.curve(folder, REDUCER, "at_160_1", HIDDEN, roughly=True)[0]["rms"][1] < 0.5
     assert not tried(trial, folder, "loop", {})["placed"]
     file, campaign = load_model(REDUCER), load_campaign(folder.root)
     model = PhysicalModel(file, campaign)

@@ -187,21 +187,21 @@ def test_what_is_clicked_while_something_is_computed_waits_for_its_end(bench):
       const begin = async (work) => { if (work === 'late' && first) { first = false; throw taken; } begun.push(work); busy = work; };
       const queue = waiting({ busy: () => busy, act, begin, changed: () => {} });
       await Promise.all([queue.start('compare'), queue.start('next'), queue.start('diagnose')]);
-      const during = [queue.next, [...begun]];
+      const during = [queue.waits, [...begun]];
       busy = '';
       queue.heard();
       await queue.start('life');
-      queue.leave();
+      queue.leave('life');
       busy = '';
       queue.heard();
       // Another tab was first, which this one has not heard yet.
       await queue.start('late');
-      const late = queue.next;
+      const late = queue.waits;
       queue.heard();
       await new Promise((done) => setTimeout(done, 0));
       return [during, late, begun];
     }""")
-    assert told == [["diagnose", ["compare"]], "late", ["compare", "diagnose", "late"]]
+    assert told == [[["diagnose"], ["compare"]], ["late"], ["compare", "diagnose", "late"]]
     # The server's word for it is no error of what was sent.
     folder = opened(bench.folder)
     folder.remember("jobs/life/job", {"kind": "life", "given": {}, "begun": time.time()})

@@ -1,5 +1,6 @@
 """Try, in headless Chromium: numbers of effects and the curves that follow them."""
 
+import json
 import shutil
 
 import pytest
@@ -118,3 +119,55 @@ def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_show
     assert told == [
         [["30", f"400 µm {bounds}; 30 µm is shown", 30], ["20", "", 20], ["-30", f"−30.001 µm {bounds}; −30 µm is shown", -30], ["4", "", 4]], "status"
     ]
+
+
+def test_a_move_under_try_does_not_wait_for_the_exact_curve(bench):
+    """It was sent only once that had come; what comes then is of before and is not drawn."""
+    page, asked, held = bench.page, [], []
+    slider = {"name": "gap", "unit": "um", "factor": 1e6, "offset": 0, "off": 0, "low": 0, "high": 9, "bounds": [0, 9], "typical": 1, "amplitude": True,
+              "all_round": False, "counts": False, "description": "", "of": ""}  # fmt: skip
+    effect = {"name": "clearance", "title": "clearance", "part": "", "signals": [], "law": "", "says": "", "source": "", "parameters": [slider]}
+    run = {"run": "r", "signal": "transmission_error", "title": "t", "condition": "c", "replicate": 1, "held_out": False, "samples": 1, "axis": "angle"}
+    words = {"unit": "arcsec", "axis": {"name": "angle", "title": "angle"}, "loop": False, "stems": False, "title": "t", "condition": "c", "free": False,
+             "aside": [], "placed": "", "count": 1}  # fmt: skip
+
+    def curve(route):
+        given = route.request.post_data_json
+        asked.append(given["roughly"])
+        tried = 1e6 * given["values"].get("gap", 0.0)
+        answer = json.dumps(words | {"rms": [9.0, tried]}).encode() + b"\n" + bytes(20)
+        if given["roughly"]:
+            route.fulfill(body=answer)
+        else:
+            held.append((route, answer))
+
+    page.goto(bench.address)
+    page.get_by_text("Drop what the bench wrote").wait_for()
+    page.route("**/try", lambda route: route.fulfill(json={"model": "m", "effects": [effect], "numbers": [], "runs": [run]}))
+    page.route("**/try/everywhere", lambda route: route.fulfill(json=None))
+    page.route("**/try/curve", curve)
+    page.evaluate("""async () => {
+      const { show } = await import('./static/try.js'), place = document.getElementById('view');
+      place.replaceChildren();
+      show(place, { state: { saved: true, folder: 'f', models: [], library: [], jobs: {} }, model: () => 'm', modelChooser: () => document.createElement('span'),
+                    act: (promise) => promise });
+    }""")
+    page.fill("input[type=search]", "clearance")
+    page.locator("[data-parameter=gap]").focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("() => document.querySelector('#followed')?.textContent.includes('first look')")
+    while not held:
+        page.wait_for_timeout(50)
+    before = page.locator("#followed").inner_text()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("(before) => !document.querySelector('#followed').textContent.startsWith(before.slice(0, 50))", arg=before)
+    after = page.locator("#followed").inner_text()
+    assert asked[-1] is True and "first look" in after
+    held[0][0].fulfill(body=held[0][1])
+    page.wait_for_timeout(100)
+    assert page.locator("#followed").inner_text() == after
+    # And when the hand rests the exact one follows.
+    while len(held) < 2:
+        page.wait_for_timeout(50)
+    held[1][0].fulfill(body=held[1][1])
+    page.locator("#followed", has_not_text="first look").wait_for()

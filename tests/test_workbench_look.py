@@ -42,6 +42,23 @@ def test_orders_are_shown_by_their_amplitude():
     assert amplitudes_of(np.array([78.0, 1.0, 78.0, 1.0]), np.array([3.0, 0.0, 4.0, -2.0])).tolist() == [2.0, 5.0]
 
 
+def test_a_missing_sample_leaves_the_orders_and_a_large_gap_says_why_there_are_none():
+    """One #NV in each file, and orders, waterfall and hovering were gone without a word."""
+    from discrepancy.page.runs import Run
+    from discrepancy.problem import Record
+    from workbench.look import orders_of
+
+    def run(condition, rows):
+        angle = np.delete(np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False), rows)
+        record = Record(f"r_{condition}", "transmission_error", "rad", condition, 1, np.cos(7 * angle), {"angle": angle}, {})
+        return Run(record, np.ones(len(angle), bool), record.values, 0.5 * record.values, np.ones(len(angle)), np.zeros(len(angle), bool))
+
+    [told], why = orders_of([run("cold", [80]), run("cold", [90]), run("warm", range(50, 90))], 10.0)
+    assert (told["condition"], told["repetitions"], told["bridged"]) == ("cold", 2, "2 samples missing or far off are bridged.")
+    assert [told[name][7] for name in ("measured", "predicted", "residual")] == pytest.approx([10.0, 5.0, 5.0], rel=1e-3) and max(told["measured"][8:]) < 0.02
+    assert why.keys() == {"warm"} and why["warm"].startswith("r_warm: after 44.1 deg the angle leaps by 36.9 deg")
+
+
 def test_only_what_there_is_is_exported(tmp_path):
     from workbench.steps import STEPS, export_step
 
@@ -149,3 +166,40 @@ def test_look_tells_calibrated_numbers_as_compare_does():
 
     assert told(0.0) == [{"name": "lag_share", "value": "1.017 ± 0.035", "meaning": "lag of the output"}]
     assert told(20.0)[0]["value"] == "1.017"
+
+
+def test_a_move_of_the_hand_goes_before_the_exact_curve(monkeypatch):
+    """It waited for its end: a median of 240 ms where the hand moved again after 0.6 s."""
+    import threading
+    import time
+
+    from fmu_src.threads import Once
+    from workbench import trying
+
+    computing, told = threading.Event(), []
+
+    def drawn(models, run, values, roughly):
+        kept = Once(100_000)
+        for n in range(0 if roughly else 20_000):
+            kept.get(n, lambda: time.sleep(1e-3))
+            computing.set()
+        return {"roughly": roughly}, np.zeros((5, 1))
+
+    def changes_of(found, values):
+        return drawn([found], "", values, False)
+
+    monkeypatch.setattr(trying, "drawn", drawn)
+    monkeypatch.setattr(trying, "changes_of", changes_of)
+    trial = trying.Trial()
+    for name in ("opened", "at_hand"):
+        monkeypatch.setattr(trial, name, lambda folder, model: object())
+    for slow in (lambda: trial.curve(None, "m", "r", {})[0], lambda: trial.everywhere(None, "m", {})):
+        computing.clear()
+        exact = threading.Thread(target=lambda: told.append(slow()))
+        exact.start()
+        assert computing.wait(10.0)
+        begun = time.perf_counter()
+        assert trial.curve(None, "m", "r", {}, roughly=True)[0] == {"roughly": True}
+        assert time.perf_counter() - begun < 2.0
+        exact.join(10.0)
+    assert told == [{"late": True}, None]

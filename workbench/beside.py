@@ -59,6 +59,10 @@ class Beside:
             if self.model.stands_elsewhere(standing):
                 self.model.settle(standing)
 
+    def stands(self, standing: Mapping[str, float]) -> bool:
+        """Whether neither the diagnosis nor what is calibrated first has changed."""
+        return standing == self.standing and self.changed() == self.seen
+
     def refresh(self) -> None:
         """Takes what a diagnosis has found since, if there was one."""
         if self.changed() == self.seen:

@@ -1,6 +1,6 @@
 """A comparison as the page shows it: key figures first, then every run over its axis, residuals in units of the noise, orders."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -10,16 +10,19 @@ from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
-from discrepancy.page import amounts, comparison, spectra, whys
+from discrepancy.page import amounts, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis
 from fmu_src.arrays import Floats
+from pages.content import Page
+from pages.look import significant
 from pages.words import number
 from workbench.doubts import apart, cells_of
+from workbench.page_words import on_page
 
-# The row of an order is drawn up to this one.
-MOST_ORDERS = 200
+# Noise of a run that differs by less than this share is one number.
+EVEN = 1e-3
 # A prediction for an axis with fewer samples is drawn with dots besides.
 FEW = 40
 # Samples of a run that is drawn at all.
@@ -45,8 +48,8 @@ class Columns:
         return b"".join(self.parts)
 
 
-def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
-    """(all that is words and few numbers, the columns that it refers to)."""
+def view(result: Comparison, page: Page) -> tuple[dict[str, Any], bytes]:
+    """(all that is words and few numbers, the columns that it refers to), with what its ``page`` says."""
     model = result.model
     speed = of_axis("speed", model.campaign)
     space, place = result.diagnostician.space, result.diagnostician.localisation
@@ -54,14 +57,13 @@ def view(result: Comparison) -> tuple[dict[str, Any], bytes]:
     ratios = {r["run"]: r["ratio"] for r in result.runs}
     columns = Columns()
     named = {f"{order:g}": name for name, family in result.diagnostician.orders.items() for order in family}
-    page = comparison.page(result)
     doubts, warnings = apart(page.warnings, model.campaign, result.scale_doubts)
     told = {
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign, diagnosed=bool(model.file.effects)),
         "cards": [asdict(c) for c in page.cards],
         "figures": figures(result.figures), "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
-        "signals": [signal(name, members, columns, ratios, named) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
+        "signals": [signal(name, members, columns, ratios) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
@@ -92,7 +94,7 @@ def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
     return rows
 
 
-def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str, float], named: dict[str, str]) -> dict[str, Any]:
+def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:
     """One signal: its runs, each with axis, measured, predicted and noise in the units that a bench reads."""
     first = members[0]
     unit = first.record.unit
@@ -107,7 +109,7 @@ def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str
         told["axis"] = {"name": axis, "title": amounts.axis_title(axis, series[0].speed)}
         told["loop"] = axis == "torque"
         told["runs"] = [drawn(run, factor, columns, ratios) for run in series if axis_of(run) == axis]
-        told["spectra"] = orders_of([run for run in series if run.series], factor, named)
+        told["spectra"], told["no_orders"] = orders_of([run for run in series if run.series], factor)
     return told
 
 
@@ -130,12 +132,14 @@ def drawn(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -
     noise = np.broadcast_to(np.asarray(run.noise, np.float64), run.measured.shape)
     # Drawn, but the axis is not stretched for them.
     aside = {"aside": np.flatnonzero(run.outlying).tolist()} if run.outlying.any() else {}
+    # Of each sample, for what the page divides by it, where one number does not say it.
+    noises = {"noises": columns.add(factor * noise)} if np.ptp(noise) > EVEN * np.median(noise) else {}
     return label(run, ratios) | {
         "samples": int(run.measured.size), "dots": run.measured.size < FEW,
         "x": columns.add(x), "measured": columns.add(factor * run.measured), "predicted": columns.add(factor * run.predicted),
         "residual": columns.add((run.measured - run.predicted) / np.maximum(noise, 1e-300)), "noise": float(factor * np.median(noise)),
         "zero": factor * run.zero,
-    } | aside  # fmt: skip
+    } | aside | noises  # fmt: skip
 
 
 def stems(run: Run, factor: float, columns: Columns, ratios: dict[str, float]) -> dict[str, Any]:
@@ -170,28 +174,16 @@ def single(run: Run, factor: float, ratios: dict[str, float]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def orders_of(runs: Sequence[Run], factor: float, named: dict[str, str]) -> list[dict[str, Any]]:
-    """Amplitudes of the whole orders of the output's turn, condition by condition, of the mean of its repetitions; [] without whole turns."""
+def orders_of(runs: Sequence[Run], factor: float) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """Amplitudes of the whole orders of the output's turn, condition by condition, of the mean of its repetitions; of those without whole turns why."""
     cells: dict[str, list[Run]] = {}
     for run in runs:
-        if spectra.turns(run):
-            cells.setdefault(run.record.condition, []).append(run)
-    return [spectrum(condition, members, factor) for condition, members in cells.items()]
-
-
-def spectrum(condition: str, members: Sequence[Run], factor: float) -> dict[str, Any]:
-    first = members[0]
-    whole = spectra.turns(first)
-    alike = [r for r in members if spectra.turns(r) == whole and r.kept.size == first.kept.size]
-    measured = amplitudes((spectra.bridged(r, r.measured) for r in alike), whole, factor)
-    predicted = amplitudes([spectra.bridged(first, first.predicted)], whole, factor)
-    residual = amplitudes((spectra.bridged(r, r.measured - r.predicted) for r in alike), whole, factor)
-    return {"condition": condition, "held_out": first.record.held_out, "turns": whole, "repetitions": len(alike),
-            "measured": measured, "predicted": predicted, "residual": residual}  # fmt: skip
-
-
-def amplitudes(curves: Iterable[Floats], whole: int, factor: float) -> list[float]:
-    """Of orders 0 to MOST_ORDERS of the mean of the curves; that of order 0 counts for nothing."""
-    found = factor * spectra.amplitudes(np.mean(list(curves), axis=0), whole)[: MOST_ORDERS + 1]
-    found[:1] = 0.0
-    return [float(f"{v:.4g}") for v in found]
+        cells.setdefault(run.record.condition, []).append(run)
+    found, why = spectra.spectra_of(cells)
+    told = []
+    for condition, own in found.items():
+        held_out, bridged = cells[condition][0].record.held_out, spectra.bridged_text(own.bridged)
+        rows = {name: significant(factor * spectra.sizes(values), 4) for name, values in
+                (("measured", own.measured), ("predicted", own.predicted), ("residual", own.residual))}  # fmt: skip
+        told.append({"condition": condition, "held_out": held_out, "turns": own.turns, "repetitions": own.repetitions, "bridged": bridged} | rows)
+    return told, {condition: on_page(reason) for condition, reason in why.items()}

@@ -60,17 +60,19 @@ def report(result: object, place: Path) -> None:
 
 def compare_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     from discrepancy.compare import compare
+    from discrepancy.page import page_of
     from workbench.look import view
 
     with task("comparing"):
         comparison = compare(*inputs(folder, given), jobs=jobs)
-        found, columns = view(comparison)
+        page = page_of(comparison)
+        found, columns = view(comparison, page)
     with replacing(place / "columns.bin") as partial:
         partial.write_bytes(columns)
     found |= {"model": str(given["model"]), "makers": {}, "command": command(folder, given, "compare"), "begun": begun(folder, "compare")}
     write_json(place / "result.json", found)
     with task("drawing the page"):
-        report(comparison, place)
+        report(page, place)
     with task("which effects make which order"):
         found["makers"] = makers(comparison)
     write_json(place / "result.json", found)
@@ -244,7 +246,8 @@ def export_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
             written = write_pictures(page_of(made).figures, path, width_of("single"))
     option = "--export" if ending in TABLES else "--picture"
     files = [{"name": file.relative_to(folder.root).as_posix(), "bytes": file.stat().st_size} for file in written]
-    write_json(place / "result.json", {"files": files, "what": what, "command": f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"})
+    line = f"{command(folder, given, what)} {option} {shlex.quote(str(path))}"
+    write_json(place / "result.json", {"files": files, "what": what, "begun": begun(folder, "export"), "command": line})
     return False
 
 

@@ -2,7 +2,8 @@
 
 import math
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +21,7 @@ from discrepancy.scales import of_axis, of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
 from fmu_src.faults import InputFault
+from fmu_src.threads import Stopped, giving_way
 from workbench.beside import Beside
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
@@ -33,13 +35,17 @@ KEPT = 2
 
 
 class Trial:
-    """One model held against one campaign; one prediction at a time, and of those that wait only the last one counts."""
+    """One model held against one campaign; a move of the hand goes before all else, and runs beside what is computed exactly until that gives way."""
 
     def __init__(self) -> None:
-        self.lock = threading.Lock()
+        # Held, the first before the second: by what is computed exactly, one after the other, and by a move, or while models are opened or changed.
+        self.slow, self.lock = threading.Lock(), threading.Lock()
         # By folder, model and what they were; the last two, for one may be looked at beside the other.
         self.models: dict[tuple[str, str, str], Beside] = {}
-        self.asked = 0
+        # Moves that were asked for so far, in all tabs.
+        self.moves = 0
+        # When the last comparison was written, of which model, and what it calibrated.
+        self.compared: tuple[int, str, dict[str, float]] = (0, "", {})
 
     def opened(self, folder: Folder, model: str) -> Beside:
         """The model, made anew where folder or model have changed, with what a diagnosis knows beside effects."""
@@ -56,19 +62,31 @@ class Trial:
         found.stand(self.standing(folder, model, found.model))
         return found
 
+    def at_hand(self, folder: Folder, model: str) -> Beside | None:
+        """The model if it is open as it is now; else it has to be opened, which changes what is computed with it."""
+        found = self.models.get((str(folder.root), model, folder.stamp(model)))
+        return found if found and found.stands(self.standing(folder, model, found.model)) else None
+
     def standing(self, folder: Folder, model: str, found: PhysicalModel) -> dict[str, float]:
         """What is calibrated first, as the last comparison of this model found it; else where it starts."""
-        last = folder.recall("jobs/compare/result")
-        known = last.get("nuisances", {}) if last.get("model") == model else {}
+        result = folder.memory / "jobs/compare/result.json"
+        written = result.stat().st_mtime_ns if result.is_file() else 0
+        # A move has no time to read all of it.
+        if written != self.compared[0]:
+            last = folder.recall("jobs/compare/result")
+            self.compared = written, str(last.get("model")), last.get("nuisances", {})
+        _, compared, calibrated = self.compared
+        known = calibrated if compared == model else {}
         return found.standing() | {name: float(known[name]) for name in known if name in {p.name for p in found.nuisances}}
 
-    def compared(self, folder: Folder, model: str) -> bool:
-        """Whether Look shows errors of this model."""
-        return bool(folder.recall("jobs/compare/result").get("model") == model)
+    def in_look(self, model: str) -> bool:
+        """Whether Look shows errors of this model, as of the last time it was asked for."""
+        return self.compared[1] == model
 
     def controls(self, folder: Folder, model: str) -> dict[str, Any]:
         """Every effect with its parameters as sliders, and the runs that can be looked at."""
-        with self.lock:
+        self.moves += 1
+        with self.slow, self.lock:
             found = self.opened(folder, model).model
             about = every_effect()
             effects = []
@@ -87,82 +105,109 @@ class Trial:
             return {"model": model, "effects": present(found) + effects, "numbers": numbers, "runs": runs}
 
     def curve(
-        self, folder: Folder, model: str, run: str, values: Mapping[str, float], ticket: int, roughly: bool = False, beside: str = ""
+        self, folder: Folder, model: str, run: str, values: Mapping[str, float], roughly: bool = False, beside: str = ""
     ) -> tuple[dict[str, Any], Floats]:
         """Values of a run over its axis, in the units of the bench: (words, rows axis, measured, base, predicted, model ``beside``).
 
-        ``roughly``: while the hand moves, within some parts in a hundred of what the values change.
+        ``roughly``: while the hand moves, within some parts in a hundred of what the values change.  Exactly it gives way to a move, ``late``.
         """
-        self.asked = max(self.asked, ticket)
-        with self.lock:
-            if ticket < self.asked:
-                # The hand has moved on.
-                return {"late": True}, np.zeros((5, 0))
-            beside_it = self.opened(folder, model)
-            found = beside_it.model
-            record = run_of(found, run)
-            own, standing = checked_values(found, values), beside_it.standing
-            in_common = found.one(record, standing)
-            base, by = moved(record, in_common, found.nuisances)
-            tried = own_curve(found, record, {**standing, **beside_it.calibrated(own, roughly), **own}, roughly) if own else base
-            other = base
-            if beside and beside != model:
-                second = self.opened(folder, beside)
-                other = own_curve(second.model, run_of(second.model, run), second.standing)
-            factor, unit = amounts.scale(record.unit, stream_of(record))
-            name = axis_name(record)
-            speed = of_axis("speed", found.campaign)
-            x = amounts.axis_values(name, np.asarray(record.axes[name]), speed) if name else np.arange(len(record.values), dtype=float)
-            # As the prediction's mean is fitted where a zero is free, all count from it.
-            zero = float(base.mean()) if record.free_zero and name else 0.0
-            curves = [curve - zero for curve in (np.asarray(record.values, np.float64), base, tried, other)]
-            if record.quantity == ORDERS:
-                every = np.asarray(record.axes["order"], np.float64)
-                x, curves = np.unique(every), [amplitudes_of(every, values) for values in curves]
-            axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
-            words = {
-                "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
-                "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
-                "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
-                "look": as_in_look(error_of(record, in_common) * factor, error_of(record, base) * factor, unit, by) if self.compared(folder, model) else "",
-            }  # fmt: skip
-            return words, np.array([x, *(factor * curve for curve in curves)])
+        both = (model, beside or model)
+        if roughly:
+            self.moves += 1
+            with self.lock:
+                at_hand = [open_now for name in both if (open_now := self.at_hand(folder, name))]
+                if len(at_hand) == len(both):
+                    return drawn(at_hand, run, values, roughly, self.in_look(model))
+            with self.slow, self.lock:
+                return drawn([self.opened(folder, name) for name in both], run, values, roughly, self.in_look(model))
+        try:
+            with self.giving_way(folder, both) as found:
+                return drawn(found, run, values, roughly, self.in_look(model))
+        except Stopped:
+            return {"late": True}, np.zeros((5, 0))
 
-    def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]]:
-        """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition.
+    def everywhere(self, folder: Folder, model: str, values: Mapping[str, float]) -> list[dict[str, Any]] | None:
+        """What the values would do to each signal; None where it gave way to a move of the hand."""
+        try:
+            with self.giving_way(folder, (model,)) as (found,):
+                return changes_of(found, values, self.in_look(model))
+        except Stopped:
+            return None
 
-        Of a new reducer exactly: of a large change a rough look leaves more than a bench's noise.  A life is dear, and looked at roughly.
-        """
-        with self.lock:
-            beside = self.opened(folder, model)
-            found = beside.model
-            own, standing, compared = checked_values(found, values), beside.standing, self.compared(folder, model)
-            calibrated = {**standing, **beside.calibrated(own)}
-            cells: dict[str, list[tuple[float, float, float]]] = {}
-            in_common: dict[str, dict[str, list[float]]] = {}
-            units: dict[str, str] = {}
-            seen = set()
-            for record in found.records:
-                key = (stream_of(record), record.condition, record.mounting)
-                if key in seen:
-                    continue
-                seen.add(key)
-                roughly = is_worn(record)
-                plain = found.one(record, standing, rough=roughly)
-                base, tried = at_own_zero(record, plain, found.nuisances), own_curve(found, record, calibrated | own, roughly)
-                in_common.setdefault(key[0], {}).setdefault("held out" if record.held_out else "fitted", []).append(error_of(record, plain))
-                units[key[0]] = record.unit
-                cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
-        rows = []
-        for signal, entries in cells.items():
-            change, before, after = map(mean_of, zip(*entries))
-            every = mean_of([error for errors in in_common[signal].values() for error in errors])
-            of_look = ", ".join(f"{kind} {amounts.text(mean_of(errors), units[signal], signal)}" for kind, errors in sorted(in_common[signal].items()))
-            shown = [amounts.text(v, units[signal], signal) for v in (change, before, after)]
-            rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
-                         "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300),
-                         "look": of_look if compared and abs(every - before) > ALIKE * before else ""})  # fmt: skip
-        return rows
+    @contextmanager
+    def giving_way(self, folder: Folder, models: Sequence[str]) -> Iterator[list[Beside]]:
+        """The models, for what ends by ``Stopped`` where a move is asked for from now on."""
+        known = self.moves
+        with self.slow:
+            with self.lock:
+                found = [self.opened(folder, name) for name in models]
+            with giving_way(lambda: self.moves > known):
+                yield found
+
+
+def drawn(models: Sequence[Beside], run: str, values: Mapping[str, float], roughly: bool, in_look: bool) -> tuple[dict[str, Any], Floats]:
+    """``Trial.curve`` of the first of two models that are open, beside the second, which may be the same; ``in_look``: whether Look has errors of it."""
+    beside_it, second = models
+    found = beside_it.model
+    record = run_of(found, run)
+    own, standing = checked_values(found, values), beside_it.standing
+    in_common = found.one(record, standing)
+    base, by = moved(record, in_common, found.nuisances)
+    tried = own_curve(found, record, {**standing, **beside_it.calibrated(own, roughly), **own}, roughly) if own else base
+    other = own_curve(second.model, run_of(second.model, run), second.standing) if second is not beside_it else base
+    factor, unit = amounts.scale(record.unit, stream_of(record))
+    name = axis_name(record)
+    speed = of_axis("speed", found.campaign)
+    x = amounts.axis_values(name, np.asarray(record.axes[name]), speed) if name else np.arange(len(record.values), dtype=float)
+    # As the prediction's mean is fitted where a zero is free, all count from it.
+    zero = float(base.mean()) if record.free_zero and name else 0.0
+    curves = [curve - zero for curve in (np.asarray(record.values, np.float64), base, tried, other)]
+    if record.quantity == ORDERS:
+        every = np.asarray(record.axes["order"], np.float64)
+        x, curves = np.unique(every), [amplitudes_of(every, values) for values in curves]
+    axis = {"name": name or "sample", "title": amounts.axis_title(name, speed) if name else "sample"}
+    words = {
+        "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
+        "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
+        "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
+        "look": as_in_look(error_of(record, in_common) * factor, error_of(record, base) * factor, unit, by) if in_look else "",
+    }  # fmt: skip
+    return words, np.array([x, *(factor * curve for curve in curves)])
+
+
+def changes_of(beside: Beside, values: Mapping[str, float], in_look: bool) -> list[dict[str, Any]]:
+    """What the values would do to each signal: root mean square of the change and of the error before and after, one run a condition.
+
+    Of a new reducer exactly: of a large change a rough look leaves more than a bench's noise.  A life is dear, and looked at roughly.
+    """
+    found = beside.model
+    own, standing = checked_values(found, values), beside.standing
+    calibrated = {**standing, **beside.calibrated(own)}
+    cells: dict[str, list[tuple[float, float, float]]] = {}
+    in_common: dict[str, dict[str, list[float]]] = {}
+    units: dict[str, str] = {}
+    seen = set()
+    for record in found.records:
+        key = (stream_of(record), record.condition, record.mounting)
+        if key in seen:
+            continue
+        seen.add(key)
+        roughly = is_worn(record)
+        plain = found.one(record, standing, rough=roughly)
+        base, tried = at_own_zero(record, plain, found.nuisances), own_curve(found, record, calibrated | own, roughly)
+        in_common.setdefault(key[0], {}).setdefault("held out" if record.held_out else "fitted", []).append(error_of(record, plain))
+        units[key[0]] = record.unit
+        cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
+    rows = []
+    for signal, entries in cells.items():
+        change, before, after = map(mean_of, zip(*entries))
+        every = mean_of([error for errors in in_common[signal].values() for error in errors])
+        of_look = ", ".join(f"{kind} {amounts.text(mean_of(errors), units[signal], signal)}" for kind, errors in sorted(in_common[signal].items()))
+        shown = [amounts.text(v, units[signal], signal) for v in (change, before, after)]
+        rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
+                     "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300),
+                     "look": of_look if in_look and abs(every - before) > ALIKE * before else ""})  # fmt: skip
+    return rows
 
 
 def own_curve(model: PhysicalModel, record: Record, values: Mapping[str, float], rough: bool = False) -> Floats:

@@ -27,14 +27,15 @@ MOST_CARDS = 6
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
     runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
+    orders, no_orders = order_figures(runs)
     # What one asks first: numbers, then curves, then maps.
     sections = [
         *figures_section(result.figures, result.model.file, bool(result.nuisances)),
         Section(
             "runs",
             "Measured against predicted",
-            "Every run of the campaign beside the model's prediction of it.",
-            run_figures("run", runs) + order_figures(runs),
+            " ".join(["Every run of the campaign beside the model's prediction of it.", *no_orders]),
+            run_figures("run", runs) + orders,
         ),
         errors(result),
         localisation_section(
@@ -192,10 +193,14 @@ def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = pane
     return sorted(drawn, key=lambda f: -f.columns)
 
 
-def order_figures(runs: list[Run]) -> list[Figure]:
-    """Orders of measured and predicted over each other, of signals that were measured over whole turns."""
-    found = (spectra.figure("orders", signal, [r for r in members if r.series], ("measured", "predicted")) for signal, members in by_signal(runs).items())
-    return [figure for figure in found if figure is not None]
+def order_figures(runs: list[Run]) -> tuple[list[Figure], list[str]]:
+    """Orders of measured and predicted over each other, of signals that were measured over whole turns; of others over the angle why there are none."""
+    figures, reasons = [], []
+    for signal, members in by_signal(runs).items():
+        drawn, why = spectra.figure("orders", signal, [r for r in members if r.series], ("measured", "predicted"))
+        figures += [drawn] if drawn else []
+        reasons += [f"{capital(amounts.signal_title(signal))}: {why}"] if why else []
+    return figures, reasons
 
 
 def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool) -> list[Section]:

@@ -33,9 +33,9 @@ def section(answer: Answer) -> Section:
     figures = comparison.run_figures("response", averaged(runs), words=WORDS)
     for signal, members in by_signal(runs).items():
         lines = [r for r in members if r.series]
-        found = spectra.figure("response_orders", signal, lines, WORDS[:2]) if lines else None
-        if found:
-            figures.append(found)
+        orders, _ = spectra.figure("response_orders", signal, lines, WORDS[:2])
+        if orders:
+            figures.append(orders)
     figures.sort(key=lambda f: -f.columns)
     lead = (
         f"In blue what {' + '.join(effect_title(c.name) for c in best.candidates)} adds with its fitted parameters, "

@@ -13,8 +13,10 @@ from pages.render import rendered_sections, written
 
 
 def page_of(result: object) -> Page:
-    """What the page of a result says and shows."""
+    """What the page of a result says and shows; a page that was made is itself."""
     match result:
+        case Page():
+            return result
         case Comparison():
             return comparison.page(result)
         case Answer():

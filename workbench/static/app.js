@@ -1,6 +1,7 @@
 // The frame: views, what is being computed, keys, colours.  What all tabs share comes from the server as it changes.
 
 import { choose, clear, duration, h, note } from "./dom.js";
+import { endingName, hear } from "./export.js";
 import { post } from "./net.js";
 import { recolour } from "./plot.js";
 import { waiting } from "./waiting.js";
@@ -21,8 +22,9 @@ const KEYS = [
   ["1 … 6", "the views, in their order"],
   ["/", "search"],
   ["?", "this list"],
-  ["a, b", "in a chart: which cursor is set"],
-  ["← →", "in a chart: move the cursor; with Shift ten times as far"],
+  ["click", "in a chart: set cursor A, then B, then A again"],
+  ["a, b", "in a chart: which cursor the next click sets, and the arrows move"],
+  ["← →", "in a chart: move the cursor that was set last; with Shift ten times as far"],
   ["+ − 0", "in a chart: zoom in, out, show all"],
   ["Page ↑ ↓", "in a chart: move along"],
   ["Del", "in a chart: take the cursor away"],
@@ -135,11 +137,20 @@ export async function act(promise, place = null) {
 // Why nothing else can be started now; empty while nothing is computed.
 function busy() {
   const running = Object.entries(context.state?.jobs ?? {}).find(([, job]) => job.state === "running");
-  return running ? `${WORK[running[0]]}: one thing is computed at a time; wait for its end, or stop it above` : "";
+  return running ? `${doing(running[0], running[1].given)}: one thing is computed at a time; wait for its end, or stop it above` : "";
 }
 
+// Which file is exported says so: several may wait.
+const doing = (kind, given) => (kind === "export" && given?.ending ? `${WORK.export} ${endingName(given.ending)}` : WORK[kind]);
+
 // What is clicked while something is computed waits for its end.
-const queue = waiting({ busy, act, begin: ({ kind, given }) => post(`jobs/${kind}`, given).then(heard), changed: () => showWork(context.state.jobs) });
+const queue = waiting({
+  busy,
+  act,
+  begin: ({ kind, given }) => post(`jobs/${kind}`, given).then(heard),
+  changed: () => showWork(context.state.jobs),
+  apart: ({ kind }) => kind === "export",
+});
 export function start(kind, given = {}) {
   return queue.start({ kind, given: { model: context.model(), ...given } });
 }
@@ -173,15 +184,26 @@ function showWork(jobs) {
   const bar = h("progress", task?.total ? { max: task.total, value: task.done, "aria-label": task.what } : { "aria-label": "at work" });
   const said = job.said.at(-1),
     // Of a step alone "about 1 s left" would be read as the end.
-    doing = inner ? `${inner.sentence}${job.whole ? `; in all ${job.whole} left` : ""}` : "starting";
+    step = inner ? `${inner.sentence}${job.whole ? `; in all ${job.whole} left` : ""}` : "starting";
   clear(
     work,
-    h("b", {}, WORK[kind]),
+    h("b", {}, doing(kind, job.given)),
     bar,
-    h("span", { class: "doing", title: [doing, said && `so far: ${said}`].filter(Boolean).join("\n") }, doing, said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h("span", { class: "doing", title: [step, said && `so far: ${said}`].filter(Boolean).join("\n") }, step, said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
-    queue.next ? h("span", { id: "waits" }, `then: ${WORK[queue.next.kind]} `, h("button", { type: "button", class: "plainly", onclick: queue.leave }, "leave it")) : null,
+    queue.waits.length
+      ? h(
+          "span",
+          { id: "waits" },
+          "then: ",
+          queue.waits.map((one, i) => [
+            i ? ", " : "",
+            `${doing(one.kind, one.given)} `,
+            h("button", { type: "button", class: "plainly", onclick: () => queue.leave(one) }, "leave it"),
+          ]),
+        )
+      : null,
   );
 }
 
@@ -191,6 +213,7 @@ function heard(state) {
   document.getElementById("folder").textContent = state.name;
   document.getElementById("folder").title = state.folder;
   showWork(state.jobs);
+  hear(state);
   queue.heard();
   if (first) open(wanted());
   else current()?.update?.(state);

@@ -5,10 +5,13 @@ import { nearestIndex } from "./scale.js";
 
 const MOST_ROWS = 400;
 
-function indexAt(line, cursor) {
-  if (line.sorted) return nearestIndex(line.x, cursor.x);
-  return cursor.index !== undefined && cursor.index < line.x.length ? cursor.index : null;
+function indexAt(x, sorted, cursor) {
+  if (sorted) return nearestIndex(x, cursor.x);
+  return cursor.index !== undefined && cursor.index < x.length ? cursor.index : null;
 }
+
+// What is read of a line: mostly what is drawn.
+const read = (line) => line.told ?? line;
 
 // Values at the cursors and their differences.
 export function tell(plot) {
@@ -22,8 +25,9 @@ export function tell(plot) {
     return;
   }
   const value = (line, cursor) => {
-    const i = cursor ? indexAt(line, cursor) : null;
-    return i === null ? NaN : line.y[i];
+    const { x, y } = read(line),
+      i = cursor ? indexAt(x, line.sorted, cursor) : null;
+    return i === null ? NaN : y[i];
   };
   const rows = plot.panes.flatMap((pane) =>
     plot
@@ -74,8 +78,8 @@ export function fillTable(plot) {
   if (!plot.behind.open) return;
   const [low, high] = plot.range();
   const parts = [];
-  for (const x of new Set(plot.lines.map((l) => l.x))) {
-    const own = plot.lines.filter((l) => l.x === x && l.name);
+  for (const x of new Set(plot.lines.map((l) => read(l).x))) {
+    const own = plot.lines.filter((l) => read(l).x === x && l.name);
     if (!own.length) continue;
     const inside = [];
     for (let i = 0; i < x.length; i++) if (x[i] >= low && x[i] <= high) inside.push(i);
@@ -88,11 +92,11 @@ export function fillTable(plot) {
           "tr",
           {},
           h("td", { class: "num" }, number(x[i], 6)),
-          own.map((l) => h("td", { class: "num" }, number(l.y[i], 5))),
+          own.map((l) => h("td", { class: "num" }, number(read(l).y[i], 5))),
         ),
       );
     const save = () => {
-      const text = marked([head.map((t) => `"${t}"`).join(","), ...inside.map((i) => [x[i], ...own.map((l) => l.y[i])].join(","))].join("\n"));
+      const text = marked([head.map((t) => `"${t}"`).join(","), ...inside.map((i) => [x[i], ...own.map((l) => read(l).y[i])].join(","))].join("\n"));
       const link = h("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: "curves.csv" });
       link.click();
       URL.revokeObjectURL(link.href);

@@ -136,7 +136,7 @@ export function show(root, context) {
     const old = past(answer, context.state.jobs.diagnose, context);
     redraw(
       body,
-      exported(context, "diagnose"),
+      exported("diagnose"),
       dimmed(
         old,
         doubtsBefore(answer, context, "diagnose"),
@@ -201,7 +201,7 @@ export function show(root, context) {
   load();
   const mark = (state) =>
     JSON.stringify(
-      ["diagnose", "next", "extend", "build", "export"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old]),
+      ["diagnose", "next", "extend", "build"].map((k) => [state.jobs[k]?.state, state.jobs[k]?.begun, state.jobs[k]?.result, state.jobs[k]?.old]),
     ) +
     context.model() +
     state.models +

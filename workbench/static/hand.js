@@ -2,6 +2,8 @@
 
 import { BOTTOM, LEFT, RIGHT, TOP } from "./paint.js";
 
+const state = (link) => ({ cursors: { ...link.cursors }, active: link.active, next: link.next });
+
 export function listen(plot) {
   const canvas = plot.canvas;
   const where = (event) => {
@@ -10,7 +12,9 @@ export function listen(plot) {
     const sx = event.clientX - r.left;
     return { sx, sy: event.clientY - r.top, x: low + ((sx - LEFT) / (r.width - LEFT - RIGHT)) * (high - low) };
   };
-  let start = null;
+  let start = null,
+    // Cursors before the last two clicks.
+    before = [];
   canvas.addEventListener("pointerdown", (event) => {
     start = { ...where(event), range: plot.range(), touch: event.pointerType === "touch" };
     canvas.setPointerCapture(event.pointerId);
@@ -50,7 +54,8 @@ export function listen(plot) {
       plot.changed();
     } else if (!from.touch || Math.abs(end.sx - from.sx) < 8) {
       const y = first ? first.bot + ((first.bottom - end.sy) / (first.bottom - first.top)) * (first.up - first.bot) : undefined;
-      plot.place(event.altKey ? "b" : plot.active, end.x, y);
+      before = [before.at(-1), state(plot.link)];
+      plot.click(end.x, y, event.altKey ? "b" : undefined);
     }
   });
   canvas.addEventListener("pointercancel", () => {
@@ -58,7 +63,11 @@ export function listen(plot) {
     plot.box = null;
     plot.later();
   });
-  canvas.addEventListener("dblclick", () => plot.reset());
+  canvas.addEventListener("dblclick", () => {
+    // Its two clicks were no cursors.
+    Object.assign(plot.link, before[0]);
+    plot.reset();
+  });
   canvas.addEventListener(
     "wheel",
     (event) => {
@@ -76,20 +85,11 @@ export function listen(plot) {
       "=": () => plot.zoom(0.7),
       "-": () => plot.zoom(1.4),
       0: () => plot.reset(),
-      a: () => {
-        plot.active = "a";
-        plot.later();
-      },
-      b: () => {
-        plot.active = "b";
-        plot.later();
-      },
+      a: () => plot.choose("a"),
+      b: () => plot.choose("b"),
       PageUp: () => plot.pan(-0.5),
       PageDown: () => plot.pan(0.5),
-      Delete: () => {
-        plot.link.cursors[plot.active] = null;
-        plot.changed();
-      },
+      Delete: () => plot.remove(),
     };
     if (!acts[event.key] || event.ctrlKey || event.metaKey) return;
     event.preventDefault();

@@ -9,6 +9,7 @@ import { orders } from "./orders.js";
 import { dimmed, past } from "./past.js";
 import { Link, Plot } from "./plot.js";
 import { matcher } from "./search.js";
+import { rms } from "./shifted.js";
 
 const MOST_DRAWN = 4;
 
@@ -96,7 +97,7 @@ export function show(root, context) {
       body,
       bar(),
       fault,
-      exported(context, "compare"),
+      exported("compare"),
       dimmed(
         past(result, job, context),
         h("h1", {}, result.title),
@@ -232,7 +233,14 @@ export function show(root, context) {
       label: `${signal.title}, measured and predicted over ${signal.axis.title}, residual in units of the noise below`,
     });
     plots.push(plot);
-    const fill = () => plot.set(spec({ part, shift, asMeasured, several: condition === "*" }, signal, members));
+    const left = h("span", { class: "quiet", id: "left-shifted" });
+    const fill = () => {
+      const drawn = spec({ part, shift, asMeasured, several: condition === "*" }, signal, members);
+      plot.set(drawn);
+      // Counted as the chips count it.
+      const errors = drawn.panes[1].lines.map((line, k) => ({ ratio: ((members[k].ratio ?? 0) * rms(line.y, line.aside)) / rms(part(members[k].residual), line.aside) }));
+      clear(left, shift && !members[0].stems ? `${times(ratio(errors))} as shifted; for looking only` : "");
+    };
     fill();
     const shifted = h("input", {
       type: "number",
@@ -270,14 +278,17 @@ export function show(root, context) {
               "the zero is free: draw it as measured",
             )
           : null,
-        h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
+        members[0].stems ? null : h("label", { class: "inline" }, "shift measured along the axis by", shifted, unitIn(signal.axis.title)),
+        left,
         h(
           "span",
           { class: "quiet" },
           `${members[0].stems ? `noise of an order ${number(members[0].noise, 3)}` : `the band is two standard deviations of the noise of a single run, ${number(2 * members[0].noise, 3)}`} ${signal.unit}; ${condition === "*" ? "first repetition of each condition" : `${members.length} of ${cells.get(condition).length} repetitions`}; ${members.reduce((n, r) => n + r.samples, 0).toLocaleString("en")} samples`,
         ),
       ),
-      signal.spectra?.length ? orders(signal, condition === "*" ? signal.spectra[0].condition : condition, result, plots) : null,
+      signal.spectra?.length || Object.keys(signal.no_orders ?? {}).length
+        ? orders(signal, condition === "*" ? (signal.spectra[0] ?? members[0]).condition : condition, result, plots)
+        : null,
     );
   }
 
@@ -285,13 +296,9 @@ export function show(root, context) {
   load();
   let seen = context.state?.jobs.compare?.begun + String(context.state?.jobs.compare?.state),
     busy = context.busy(),
-    exports = "",
     model = context.model();
   return {
     update(state) {
-      const written = `${state.jobs.export?.begun}${state.jobs.export?.state}`;
-      if (written !== exports && exports && result) draw();
-      exports = written;
       // What else is computed stands in the way of comparing.
       if (busy !== context.busy()) {
         busy = context.busy();

@@ -1,6 +1,7 @@
 // Pieces of Look: the key figures, what a chart of a signal holds, single numbers, where the model fails.
 
 import { h, note, number, table, why, words } from "./dom.js";
+import { shifted } from "./shifted.js";
 import { asked } from "./to_cell.js";
 
 const CLEAR = 3,
@@ -97,16 +98,18 @@ export function spec({ part, shift, asMeasured, several }, signal, members) {
   const [broad, dash] = signal.loop ? [2, [8, 5]] : [1.1, undefined];
   members.forEach((run, k) => {
     const raw = part(run.x),
-      x = shift ? raw.map((v) => v + shift) : raw,
-      p = raw,
+      // Orders stand where they do.
+      moved = shift && !run.stems ? shifted(raw, part(run.measured), part(run.predicted), run.noises ? part(run.noises) : run.noise, shift) : null,
+      x = moved?.x ?? raw,
       opacity = several ? 0.55 : Math.max(0.35, 0.95 - 0.2 * k),
       zero = asMeasured ? (run.zero ?? 0) : 0,
       at = (values) => (zero ? values.map((v) => v + zero) : values),
       predicted = at(part(run.predicted)),
+      left = moved?.residual ?? part(run.residual),
       name = several ? ` · ${run.condition}` : "";
     if (k === 0 && !run.stems) {
       const noise = 2 * run.noise;
-      bands.push({ x: p, low: predicted.map((v) => v - noise), high: predicted.map((v) => v + noise) });
+      bands.push({ x: raw, low: predicted.map((v) => v - noise), high: predicted.map((v) => v + noise) });
     }
     upper.push({
       name: k && !several ? "" : `measured${name}`,
@@ -121,9 +124,9 @@ export function spec({ part, shift, asMeasured, several }, signal, members) {
       shift: -0.3,
     });
     lower.push({
-      name: k && !several ? "" : `residual / noise${name}`,
-      x: p,
-      y: part(run.residual),
+      name: k && !several ? "" : `residual / noise${shift ? ", shifted" : ""}${name}`,
+      x,
+      y: left,
       colour: "--residual",
       width: 1.1,
       opacity,
@@ -132,14 +135,26 @@ export function spec({ part, shift, asMeasured, several }, signal, members) {
       ...look,
     });
     if (k === 0 || several)
-      upper.push({ name: `predicted${name}`, x: p, y: predicted, colour: "--predicted", width: 1.8, dash, opacity: several ? 0.8 : 1, ...look, shift: 0.3 });
+      upper.push({
+        name: `predicted${name}`,
+        x: raw,
+        y: predicted,
+        // Read where the samples stand that it is held against.
+        told: moved && { x, y: at(moved.predicted) },
+        colour: "--predicted",
+        width: 1.8,
+        dash,
+        opacity: several ? 0.8 : 1,
+        ...look,
+        shift: 0.3,
+      });
   });
   return {
     xTitle: signal.axis.title,
     loop: signal.loop,
     panes: [
       { title: `${signal.title.split(" (")[0]} [${signal.unit}]`, weight: 2, lines: upper, bands, zero: !!look.stems, floor: !!look.stems },
-      { title: "residual / noise", weight: 1, zero: true, limits: [-2, 2], lines: lower },
+      { title: `residual / noise${shift ? ", shifted" : ""}`, weight: 1, zero: true, limits: [-2, 2], lines: lower },
     ],
   };
 }

@@ -14,8 +14,10 @@ const ROW = 26,
   MOST_TALL = 420;
 
 export function orders(signal, condition, result, plots) {
-  const chosen = signal.spectra.find((s) => s.condition === condition);
+  const chosen = signal.spectra.find((s) => s.condition === condition),
+    none = signal.no_orders?.[condition];
   const parts = [h("h3", { style: { "margin-top": "16px" } }, "Orders of the output's turn")];
+  if (none) parts.push(h("p", { class: "quiet", id: "no-orders" }, `None at ${condition}: ${none}`));
   const said = h("p", { class: "quiet small", "aria-live": "polite" }, "Point at an order to see what makes it.");
   if (chosen) {
     const plot = new Plot({ height: 240, label: `orders of ${signal.title} at ${condition}` });
@@ -54,6 +56,7 @@ export function orders(signal, condition, result, plots) {
       .sort((p, q) => p - q);
     parts.push(
       plot.element,
+      chosen.bridged ? h("p", { class: "quiet small" }, chosen.bridged) : null,
       said,
       h(
         "details",
@@ -76,7 +79,7 @@ export function orders(signal, condition, result, plots) {
     );
   }
   if (signal.spectra.length > 1) parts.push(waterfall(signal, said, result));
-  return h("div", {}, parts);
+  return h("div", { id: "orders" }, parts);
 }
 
 const makersOf = (order, result) =>

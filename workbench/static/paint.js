@@ -214,7 +214,7 @@ function drawCursors(plot, c, px, foot) {
     c.textBaseline = "top";
     c.fillText(name.toUpperCase(), x + 3, TOP);
   }
-  plot.cursorButton.textContent = `cursor ${plot.active.toUpperCase()}`;
+  plot.cursorButton.textContent = `cursor ${plot.link.next.toUpperCase()}`;
 }
 
 function fitting(c, text, room) {

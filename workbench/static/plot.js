@@ -23,11 +23,14 @@ function inside(line) {
   return line.inside;
 }
 
-// Plots of one link show the same stretch of their axis, and cursors at the same place.
+const other = (name) => (name === "a" ? "b" : "a");
+
+// Plots of one link show the same stretch of their axis, and cursors at the same place: ``active`` is moved by keys, ``next`` is set by a click.
 export class Link {
   constructor() {
     this.range = null;
     this.cursors = { a: null, b: null };
+    this.active = this.next = "a";
     this.plots = new Set();
   }
 }
@@ -42,7 +45,6 @@ export class Plot {
     this.panes = [];
     this.xTitle = "";
     this.loop = false;
-    this.active = "a";
     this.hiddenNames = new Set();
     this.yRange = null;
     this.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": label, style: { height: `${height}px` } });
@@ -51,11 +53,8 @@ export class Plot {
       "button",
       {
         type: "button",
-        title: "which cursor a click sets (keys a, b)",
-        onclick: () => {
-          this.active = this.active === "a" ? "b" : "a";
-          this.later();
-        },
+        title: "which cursor the next click sets (keys a, b)",
+        onclick: () => this.choose(other(this.link.next)),
       },
       "cursor A",
     );
@@ -95,6 +94,9 @@ export class Plot {
     this.lines = panes.flatMap((p) => p.lines);
     for (const line of this.lines) line.sorted ??= isSorted(line.x);
     this.loop = loop || this.lines.some((l) => !l.sorted);
+    // On a loop a cursor holds on to a sample, wherever that is drawn now.
+    const main = this.lines[0];
+    for (const cursor of Object.values(this.link.cursors)) if (main && !main.sorted && cursor?.index < main.x.length) cursor.x = main.x[cursor.index];
     if (!keep) {
       this.link.range = null;
       this.yRange = null;
@@ -179,7 +181,7 @@ export class Plot {
   zoom(factor, at) {
     const [low, high] = this.range(),
       [least, most] = this.whole();
-    const middle = at ?? this.link.cursors[this.active]?.x ?? (low + high) / 2,
+    const middle = at ?? this.link.cursors[this.link.active]?.x ?? (low + high) / 2,
       size = Math.min((high - low) * factor, most - least);
     let from = middle - ((middle - low) / (high - low)) * size;
     from = Math.max(least, Math.min(from, most - size));
@@ -204,6 +206,24 @@ export class Plot {
     }
   }
 
+  // The cursor that a click sets, and keys move.
+  choose(name) {
+    this.link.active = this.link.next = name;
+    this.changed();
+  }
+
+  // A click sets A, then B, then A again; keys move the one that was set.
+  click(x, y, name = this.link.next) {
+    this.place(name, x, y);
+    this.link.active = name;
+    this.link.next = other(name);
+  }
+
+  remove() {
+    this.link.cursors[this.link.active] = null;
+    this.choose(this.link.active);
+  }
+
   place(name, x, y) {
     const [low, high] = this.range(),
       main = this.lines[0];
@@ -225,18 +245,18 @@ export class Plot {
   }
 
   step(by) {
-    const cursor = this.link.cursors[this.active],
+    const cursor = this.link.cursors[this.link.active],
       main = this.lines[0];
     if (!main?.x.length) return;
     if (!cursor) {
       const [low, high] = this.range();
-      this.place(this.active, (low + high) / 2);
+      this.place(this.link.active, (low + high) / 2);
       return;
     }
     const [low, high] = this.range();
     const size = main.sorted ? Math.max(1, Math.round((firstFrom(main.x, high) - firstFrom(main.x, low)) / 400)) : 1;
     const i = Math.max(0, Math.min(main.x.length - 1, (main.sorted ? nearestIndex(main.x, cursor.x) : (cursor.index ?? 0)) + by * size));
-    this.link.cursors[this.active] = main.sorted ? { x: main.x[i] } : { x: main.x[i], index: i };
+    this.link.cursors[this.link.active] = main.sorted ? { x: main.x[i] } : { x: main.x[i], index: i };
     this.changed();
   }
 }

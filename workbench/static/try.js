@@ -1,9 +1,10 @@
 // Try: every effect with a slider; the predicted curve follows the hand.
 
-import { choose, clear, h, number, table, words } from "./dom.js";
+import { choose, clear, h, number, words } from "./dom.js";
 import { post, wordsAndRows } from "./net.js";
 import { Plot } from "./plot.js";
 import { entry } from "./try_effects.js";
+import { everySignal } from "./try_signals.js";
 
 export function show(root, context) {
   let data = null,
@@ -11,7 +12,7 @@ export function show(root, context) {
     values = {},
     kept = null,
     keptName = "",
-    ticket = Date.now(),
+    moves = 0,
     busy = false,
     again = false,
     search = "",
@@ -213,25 +214,24 @@ export function show(root, context) {
     );
   }
 
-  // One request at a time; while it is on its way only the last position of the hand counts.
-  async function follow(roughly = true) {
+  // The hand goes first: one request at a time, and while it is on its way only the last position counts.
+  async function follow() {
     if (!run) return;
     remember();
+    moves++;
+    clearTimeout(settle);
     if (busy) {
       again = true;
       return;
     }
     busy = true;
-    const begun = performance.now(),
-      asked = { model, run, values, ticket: ++ticket, roughly, beside };
+    const begun = performance.now();
     try {
-      const [told_, rows] = await wordsAndRows("try/curve", asked, 5);
-      if (!told_.late) {
-        last = { told: told_, rows, roughly };
-        drawCurve(roughly ? performance.now() - begun : null);
-      }
+      const [words_, rows] = await wordsAndRows("try/curve", { model, run, values, roughly: true, beside }, 5);
+      last = { told: words_, rows, roughly: true };
+      drawCurve(performance.now() - begun);
     } catch (fault) {
-      clear(faults, h("p", { class: "note bad" }, fault.message));
+      failed(faults, fault);
     }
     busy = false;
     if (again) {
@@ -239,9 +239,33 @@ export function show(root, context) {
       await follow();
       return;
     }
+    rest(exactly);
+  }
+
+  const failed = (place, fault) => clear(place, h("p", { class: "note bad" }, fault.message));
+
+  // When the hand rests, or another tab's does.
+  function rest(act) {
     clearTimeout(settle);
-    // Exactly, and for all signals, when the hand rests.
-    if (roughly) settle = setTimeout(() => follow(false).then(spread), 300);
+    settle = setTimeout(() => root.isConnected && act(), 300);
+  }
+
+  // Exactly, and then for all signals; both give way to a move, in any tab.
+  async function exactly() {
+    const mine = moves;
+    try {
+      const [words_, rows] = await wordsAndRows("try/curve", { model, run, values, roughly: false, beside }, 5);
+      if (mine !== moves) return;
+      if (words_.late) {
+        rest(exactly);
+        return;
+      }
+      last = { told: words_, rows, roughly: false };
+      drawCurve(null);
+    } catch (fault) {
+      if (mine === moves) failed(faults, fault);
+    }
+    if (mine === moves) await spread();
   }
 
   function drawCurve(took) {
@@ -289,37 +313,25 @@ export function show(root, context) {
     );
   }
 
-  // What it would do to each signal, when the hand rests.
+  // What it would do to each signal.
   async function spread() {
     if (!data) return;
-    const own = { ...values };
+    const mine = moves,
+      own = { ...values };
     if (!Object.keys(own).length) {
       clear(everywhere);
       return;
     }
     try {
       const rows = await post("try/everywhere", { model, values: own });
-      clear(
-        everywhere,
-        h(
-          "div",
-          { class: "panel" },
-          h("h3", {}, "What it would do to each signal"),
-          table(
-            ["signal", "changes it by", "error before", "after"],
-            rows.map((r) => [r.title, r.touched ? r.change : "nothing", r.before, h("span", { class: r.better ? "good" : "" }, r.after)]),
-            [1, 2, 3],
-          ),
-          rows
-            .filter((r) => r.look)
-            .map((r) =>
-              h("p", { class: "small as-look" }, `${r.title} before, at the one zero and lag that Look has for all runs: ${r.look}; here each run is at its own: ${r.before}.`),
-            ),
-          h("p", { class: "quiet small" }, "All of them first looks, one run of each condition; where hours have worn the reducer, changes are right within some parts in a hundred of themselves. The number below the chart is exact. Transmission errors stand from the zero and with the lag that suit each curve; where an input was locked, and whatever else is calibrated, stays as the base model has it (beside what a diagnosis names, as that found it), so that adding an effect may do better."),
-        ),
-      );
+      if (mine !== moves) return;
+      if (!rows) {
+        rest(spread);
+        return;
+      }
+      clear(everywhere, everySignal(rows));
     } catch (fault) {
-      clear(everywhere, h("p", { class: "note bad" }, fault.message));
+      if (mine === moves) failed(everywhere, fault);
     }
   }
 

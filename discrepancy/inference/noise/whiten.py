@@ -112,20 +112,38 @@ class Whitener:
 
     def __call__(self, columns: Floats) -> Floats:
         flat = columns.ndim == 1
-        result: Floats = self.weight[:, None] * self.innovate(columns[:, None] if flat else columns)
+        result = self.innovate(columns[:, None] if flat else columns)
+        # Made anew there, it may be changed: a further array of millions takes longer than the product.
+        result *= self.weight[:, None]
         if self.directions.shape[1]:
             result -= self.directions @ (self.shrink[:, None] * (self.directions.T @ result))
         return result[:, 0] if flat else result
+
+
+@kernel
+def fill_autoregressed(columns: Floats, taps: Floats, result: Floats) -> None:
+    """Fill ``result`` (samples, columns): tap by tap along a row, as numpy would with arrays of its own for each."""
+    count, width = columns.shape
+    order = taps.shape[0] - 1
+    for i in range(count):
+        for j in range(width):
+            result[i, j] = columns[i, j]
+        for lag in range(1, min(order, i) + 1):
+            tap = taps[lag - 1]
+            for j in range(width):
+                result[i, j] -= tap * columns[i - lag, j]
+        for j in range(width):
+            result[i, j] /= taps[order]
 
 
 def autoregress(columns: Floats, taps: Floats) -> Floats:
     """Prediction error of a short autoregression; the first rows use what there is of it."""
     if not taps.size or len(columns) <= taps.size:
         return columns
-    result = columns.copy()
-    for lag, tap in enumerate(taps[:-1], start=1):
-        result[lag:] -= tap * columns[:-lag]
-    return result / float(taps[-1])
+    columns = np.ascontiguousarray(columns, dtype=float)
+    result = np.empty_like(columns)
+    fill_autoregressed(columns, taps, result)
+    return result
 
 
 def whitener(
