@@ -178,15 +178,15 @@ def test_a_move_of_the_hand_goes_before_the_exact_curve(monkeypatch):
 
     computing, told = threading.Event(), []
 
-    def drawn(models, run, values, roughly):
+    def drawn(models, run, values, roughly, in_look):
         kept = Once(100_000)
         for n in range(0 if roughly else 20_000):
             kept.get(n, lambda: time.sleep(1e-3))
             computing.set()
         return {"roughly": roughly}, np.zeros((5, 1))
 
-    def changes_of(found, values):
-        return drawn([found], "", values, False)
+    def changes_of(found, values, in_look):
+        return drawn([found], "", values, False, in_look)
 
     monkeypatch.setattr(trying, "drawn", drawn)
     monkeypatch.setattr(trying, "changes_of", changes_of)
