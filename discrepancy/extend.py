@@ -15,7 +15,7 @@ from discrepancy.already_there import AlreadyThere, numbers_of
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, figures_of, runs_of
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
+from discrepancy.inference.held_out.held_out import SEEN, WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.telling import with_base
@@ -29,7 +29,7 @@ from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
 from discrepancy.ring_directions import either_texts
-from discrepancy.sample_errors import patterns_text, plain, samples_text
+from discrepancy.sample_errors import OF_PATTERNS, PATTERNS, patterns_text, plain, samples_text
 from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
 from discrepancy.written_number import digits_of, rounded
@@ -117,7 +117,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task("judging it on unused runs"):
         judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
         fitted = judgement(diagnostician, fit, diagnostician.space.training)
-        outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit)
+        outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit, judged)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     figures = list(zip(figures_of(diagnostician, model), figures_of(diagnostician, model, fit.fit.values), strict=True))
     zeros = zeros_told(model, fit.fit)
@@ -125,6 +125,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "campaign": campaign.name, "effects": [c.name for c in chosen], "verdict": outcome, "reason": reason,
         "training_before": fitted.before if fitted else None, "training_after": fitted.after if fitted else None,
         "held_out_before": judged.before if judged else None, "held_out_after": judged.after if judged else None,
+        "unseen": judged is not None and not judged.seen,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
         "positions": zeros,
         "untold": [*(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
@@ -235,19 +236,32 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
     )
 
 
-def unseen(diagnostician: Diagnostician, fit: Refit) -> tuple[str, str]:
-    """Of an effect that does nothing in the unused runs: conditions that are left out in turn judge it instead."""
+def unseen(diagnostician: Diagnostician, fit: Refit, judged: HeldOut) -> tuple[str, str]:
+    """Of an effect that does next to nothing in the unused runs: conditions that are left out in turn judge it instead."""
     space = diagnostician.space
     acts = sorted({stream_of(space.records[i]) for c in fit.candidates for i in space.touched(c)})
     blind = sorted({stream_of(space.records[i]) for i in space.held_out})
     before, after = (sum(leave_condition_out(space, f).values()) / space.size for f in (space.base, fit.fit))
-    told = f"no unused run shows it: it acts on {', '.join(acts)}, and the unused runs of {', '.join(blind)} are as they were with it"
+    told = (
+        f"no unused run can judge it: it acts on {', '.join(acts)}, and changes the unused runs of {', '.join(blind)} by less than {SEEN:g} times the noise"
+        f" in all ({there_text(judged)})"
+    )
+    left_out = "with one condition left out at a time the misfit"
     if after < BETTER * before:
         return NOT_PROVEN, (
-            f"{told}; with one condition left out at a time the misfit falls from {before:.2f} to {after:.2f} of chi-square per value,"
+            f"{told}; {left_out} falls from {before:.2f} to {after:.2f} of chi-square per value,"
             f" which speaks for it; hold out a condition of {acts[0]} to prove it"
         )
-    return DID_NOT_HELP, f"{told}, and with one condition left out at a time the misfit does not fall: the model stays as it was"
+    return DID_NOT_HELP, (
+        f"{told}; {left_out} does not fall ({before:.3g} -> {after:.3g} of chi-square per value), which decides: the model stays as it was"
+    )
+
+
+def there_text(judged: HeldOut) -> str:
+    """What becomes of unused runs that an effect hardly changes: few patterns show a growth of the misfit that decides nothing."""
+    before, after = f"{judged.before:.2f}", f"{judged.after:.2f}"
+    went = f"stays at {after}" if before == after else f"{'grows' if judged.after > judged.before else 'falls'} from {before} to {after}"
+    return f"the {PATTERNS} there {went}; {OF_PATTERNS}"
 
 
 def build_units(model: Path, folder: Path) -> list[Path]:

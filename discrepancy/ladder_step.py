@@ -20,7 +20,8 @@ class Change:
 
 @dataclass(frozen=True)
 class Step:
-    """``training`` and ``held_out``: misfits in the patterns; None where they were not judged; ``untold``: what of it stays open."""
+    """``training`` and ``held_out``: misfits in the patterns; None where they were not judged; ``untold``: what of it stays open; ``unseen``: unused
+    runs are changed too little to judge it."""
 
     campaign: str
     effects: tuple[str, ...]
@@ -31,6 +32,7 @@ class Step:
     held_out: Change | None
     signals: tuple[SignalEntry, ...]
     untold: tuple[str, ...] = ()
+    unseen: bool = False
 
     @property
     def label(self) -> str:
@@ -70,4 +72,4 @@ def step_of(entry: Mapping[str, Any]) -> Step:
 
     signals = tuple(SignalEntry(**s) for s in entry.get("signals") or [])
     return Step(entry.get("campaign", ""), tuple(entry["effects"]), entry.get("verdict", ""), entry.get("reason", ""), entry.get("kept", True),
-                change("training"), change("held_out"), signals, tuple(entry.get("untold") or ()))  # fmt: skip
+                change("training"), change("held_out"), signals, tuple(entry.get("untold") or ()), entry.get("unseen", False))  # fmt: skip

@@ -84,6 +84,7 @@ class StepEntry(Strict):
     training_after: float | None = None
     held_out_before: float | None = None
     held_out_after: float | None = None
+    unseen: bool = False
     nuisances: dict[str, float] = {}
     positions: dict[str, float] = {}
     signals: list[SignalEntry] = []

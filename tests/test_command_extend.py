@@ -164,6 +164,8 @@ def test_effect_that_did_not_help_has_the_line_that_keeps_it(monkeypatch, capsys
     assert main(["extend", "RV20E-121", "c", "--effect", "drag", "--output", target]) == 3
     said = capsys.readouterr().out
     assert said.splitlines()[-1].strip() == f"rvwear extend RV20E-121 c --effect drag --output {target} --overwrite --anyway" and "next  " not in said
+    # The file alone looked like a success.
+    assert f"model  {target}    # written without it: the model as it was" in said
 
 
 def test_what_one_does_with_the_extended_model_stands_below_it(monkeypatch, capsys, tmp_path):

@@ -69,7 +69,7 @@ def test_what_the_catalogue_asked_for_is_counted_as_found_and_given_by_nobody(tm
     options = ["--ratio", "105", "--rated", "412", "--cranks", "2", "--speed", "15", "--diameter", "190", "--stiffness", "108", "--lost-motion", "1"]
     assert main(["reducer", "new", *options, "--output", str(path)]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output (as usual), 16 rollers a bearing (as usual), lost motion 1 arcmin"
+    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output, 16 rollers a bearing (as usual), lost motion 1 arcmin"
     assert f"given: {given}, torsional stiffness 108 N m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
     assert "2 were looked for to meet the catalogue (disc.equidistant_modification, crank.support_compliance), " in said
     assert main(["reducer", "check", str(path)]) == 0
@@ -169,6 +169,17 @@ def test_a_ratio_is_read_as_a_catalogue_prints_it(text):
     assert given_of({"ratio": text, "rated": "167"})[0].ratio == 121.0 and ratio_in(text) == 121.0
     with pytest.raises(argparse.ArgumentTypeError, match="write 121, or 1:121"):
         ratio_in("121 to 1")
+
+
+@pytest.mark.parametrize(("typed", "said"), [
+    (["--speed", "15rpm"], "15 rpm of the output, 16 rollers a bearing (as usual);"),
+    (["--speed", "15", "--rollers", "16"], "15 rpm of the output, 16 rollers a bearing;"),
+    ([], "15 rpm of the output (as usual), 16 rollers a bearing (as usual);"),
+])  # fmt: skip
+def test_what_was_typed_is_not_said_to_be_usual(typed, said, tmp_path, capsys):
+    """A speed of 15 rpm that was given was told as one that nobody gave."""
+    assert main(["reducer", "new", "--ratio", "121", "--rated", "167", *typed, "--output", str(tmp_path / "mine.toml")]) == 0
+    assert said in " ".join(capsys.readouterr().out.split())
 
 
 def test_pins_that_nobody_counted_are_assumed_and_said_to_be(tmp_path, capsys):

@@ -45,6 +45,7 @@ def test_a_refused_effect_reads_as_refused_and_offers_no_better_model(bench):
     refused, kept = (page.evaluate(ADDED, [is_kept, after]) for is_kept, after in ((False, 25.5), (True, 1.2)))
     assert "How the error fell" not in refused["heads"] and "How the error fell" in kept["heads"]
     assert any(head.startswith("Refused: crank eccentricity + raceway wear (inner)") for head in refused["heads"])
+    assert any("model.toml is written without it" in text for text in refused["said"]) and not kept["said"]
     assert refused["after"] == "bad" and kept["after"] == "good"
     assert not {"Look at the better model", "Build its FMUs"} & set(refused["buttons"]) and "Build its FMUs" in kept["buttons"]
     assert {"Try crank eccentricity alone", "Try raceway wear (inner) alone", "Back to the answer"} <= set(refused["buttons"])
@@ -144,7 +145,7 @@ ADDED = """async ([kept, after]) => {
     const place = document.createElement('div');
     place.append(addPart(bag), ladder(bag));
     const texts = (what) => [...place.querySelectorAll(what)].map((e) => e.textContent);
-    return { heads: texts('h2, h3'), buttons: texts('button'), after: place.querySelectorAll('#ladder tbody td')[4].firstElementChild.className };
+    return { heads: texts('h2, h3'), said: texts('#refused p'), buttons: texts('button'), after: place.querySelectorAll('#ladder tbody td')[4].firstElementChild.className };
   }"""
 
 

@@ -268,9 +268,8 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
         json_text(extension.as_json() | {"file": str(target), "fmus": fmus})
     else:
         show_extension(extension)
-        say_file(target, "model  ")
+        say_file(target, "model  ", "" if extension.step["kept"] else "    # written without it: the model as it was, and what was tried as a step not kept")
         if not extension.step["kept"]:
-            # The model as it was, with what was tried, stands there by now.
             again = argparse.Namespace(**vars(options) | {"overwrite": options.overwrite or not is_own(file, target)})
             print(f"to keep it all the same:\n  {extend_line(again, names, anyway=True)}")
         for path in fmus:

@@ -32,9 +32,9 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     new.add_argument("--rated", type=number_in("N.m"), required=True, metavar="NM", help="rated output torque [N m]")
     new.add_argument("--lobes", type=int, help="lobes of a disc, where somebody counted them: one less than pins")
     new.add_argument("--diameter", type=number_in("mm"), metavar="MM", help="outer diameter of the housing [mm] (default: the ring follows from the torque)")
-    new.add_argument("--speed", type=number_in("rpm"), default=15.0, metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues)")
+    new.add_argument("--speed", type=number_in("rpm"), metavar="RPM", help="rated output speed [rpm] (default 15, usual in catalogues)")
     new.add_argument("--cranks", type=int, help="2 or 3 (default 2, three from 1000 N m on)")
-    new.add_argument("--rollers", type=int, default=16, help="needle rollers of a crank bearing (default 16)")
+    new.add_argument("--rollers", type=int, help="needle rollers of a crank bearing (default 16)")
     new.add_argument("--lost-motion", type=number_in("arcmin"), metavar="ARCMIN",
                      help="lost motion of the catalogue [arcmin]: the gap of the flanks is made as that asks for; where none is narrow enough, clearance of"
                           " the bearings and play of the first stage, too, within their ranges (not given: 1 bounds that gap)")
@@ -142,13 +142,12 @@ def write_page(completion: "Completion", reducer: "Reducer", found: "list[Influe
 
 
 def given_by(options: argparse.Namespace) -> "Given":
-    from reducers.completion.given import Given, given_with
+    from reducers.completion.given import given_with
     from reducers.completion.known import known_numbers
 
-    lost_motion = Given.lost_motion if options.lost_motion is None else options.lost_motion
     return given_with(
         ratio=options.ratio, pins=options.pins, rated=options.rated, lobes=options.lobes, diameter=options.diameter, speed=options.speed,
-        cranks=options.cranks, rollers=options.rollers, lost_motion=lost_motion, known=known_numbers(options.known),
+        cranks=options.cranks, rollers=options.rollers, lost_motion=options.lost_motion, known=known_numbers(options.known),
     )  # fmt: skip
 
 

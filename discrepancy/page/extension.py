@@ -103,14 +103,14 @@ def cards(step: Step) -> list[Card]:
         made.append(Card(capital(SAMPLES), number(off.after), note, number(off.before), OF_SAMPLES, tone))
     name = capital(PATTERNS)
     for key, text, note in (
-        ("held_out", f"{name}, {UNUSED}", "what the verdict rests on"),
+        ("held_out", f"{name}, {UNUSED}", "changed too little to decide" if step.unseen else "what the verdict rests on"),
         ("training", f"{name}, {FITTED}", "any effect can lower it"),
     ):
         change = step.change(key)
         if change:
             before, after = change.before, change.after
-            shown = key != "training" and step.verdict == HELPED
-            tone = "bad" if key != "training" and after >= before else "good" if shown else "plain"
+            decides = key != "training" and not step.unseen
+            tone = "bad" if decides and after >= before else "good" if decides and step.verdict == HELPED else "plain"
             made.append(Card(text, number(after), note, number(before), OF_PATTERNS, tone, whys.of_step(key, before, after, len(step.signals))))
     return made
 

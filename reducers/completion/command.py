@@ -1,7 +1,6 @@
 """The command that completes a reducer, from what is given of it."""
 
 import math
-from dataclasses import fields
 
 from fmu_src.display import read_in, read_text
 from reducers.completion.complete import UNITS
@@ -34,13 +33,12 @@ def measured(given: Given) -> dict[str, float]:
 
 
 def given_words(given: Given) -> str:
-    """What was given in words, each number with the unit that it is read in; of speed and rollers, which every reducer has, the usual are said to be so."""
+    """What was given in words, each number with the unit that it is read in; of speed and rollers, which every reducer has, those that nobody gave are said to be usual."""
     said = [f"ratio {given.ratio:g}", *([f"{given.pins} pins"] if given.pins_counted else []), f"rated torque {given.rated:g} N m"]
     said += [f"diameter {given.diameter:g} mm"] if given.diameter is not None else []
     said += [f"{given.cranks} cranks"] if given.cranks is not None else []
-    usual = {f.name: f.default for f in fields(given)}
     own = {"speed": f"{given.speed:g} rpm of the output", "rollers": f"{given.rollers} rollers a bearing"}
-    said += [text if getattr(given, name) != usual[name] else f"{text} (as usual)" for name, text in own.items()]
+    said += [f"{text} (as usual)" if name in given.usual else text for name, text in own.items()]
     said += [f"lost motion {given.lost_motion:g} arcmin"] if given.asks_lost_motion else []
     said += [f"torsional stiffness {given.stiffness:g} N m/arcmin"] if given.stiffness is not None else []
     return ", ".join([*said, *(f"{name} {read_text(value, UNITS[name], CONVERTED)}" for name, value in measured(given).items())])

@@ -25,7 +25,7 @@ class Given:
 
     ``known`` are measured numbers by their names in a reducer file, in the units of ``complete.UNITS``.  ``made`` are some of ``PLAY`` [um] that were
     found to bring the lost motion to that of the catalogue: nobody measured them, so that they keep the range of their rules.  ``stiffness``: the torsional one
-    of the catalogue [N m/arcmin], which supports among ``known`` were found to make.
+    of the catalogue [N m/arcmin], which supports among ``known`` were found to make.  ``usual``: which of speed and rollers nobody gave.
     """
 
     ratio: float
@@ -41,6 +41,7 @@ class Given:
     pins_counted: bool = True
     made: Mapping[str, float] = field(default_factory=dict)
     stiffness: float | None = None
+    usual: frozenset[str] = frozenset()
 
     @property
     def asks_lost_motion(self) -> bool:
@@ -111,9 +112,11 @@ class Given:
 
 
 def given_with(ratio: float, pins: int | None, rated: float, lobes: int | None = None, **more: Any) -> Given:
-    """What is known where nobody may have counted the pins: lobes tell them, else there are as many as usual."""
+    """What is known where nobody may have counted the pins: lobes tell them, else there are as many as usual.  What of ``more`` is None was not given."""
+    stated = {name: value for name, value in more.items() if value is not None}
     counted = pins if pins is not None or lobes is None else lobes + 1
-    return Given(ratio, usual_pins(ratio) if counted is None else counted, rated, lobes=lobes, pins_counted=counted is not None, **more)
+    return Given(ratio, usual_pins(ratio) if counted is None else counted, rated, lobes=lobes, pins_counted=counted is not None,
+                 usual=frozenset({"speed", "rollers"} - stated.keys()), **stated)  # fmt: skip
 
 
 def usual_pins(ratio: float) -> int:

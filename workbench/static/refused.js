@@ -31,6 +31,7 @@ export function refusal(answer, extension, busy, add) {
     { id: "refused" },
     h("h3", { class: "bad" }, `Refused: ${extension.effects.map(effectName).join(" + ")} is not in the model`),
     h("p", { class: "lead" }, `${extension.verdict}; ${extension.reason}`),
+    h("p", { class: "quiet" }, "model.toml is written without it: the model as it was, and what was tried as a step not kept."),
     h(
       "p",
       { class: "quiet" },
