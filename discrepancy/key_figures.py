@@ -44,7 +44,8 @@ Reading = Callable[[Floats], dict[str, float]]
 
 @dataclass(frozen=True)
 class KeyFigure:
-    """One figure of a signal at a condition in ``unit`` (SI): measured and of the model, ``noise`` the standard deviation of the first."""
+    """One figure of a signal at a condition in ``unit`` (SI): measured and of the model, ``noise`` the standard deviation of the first,
+    known from ``dof`` degrees of freedom (0: for sure)."""
 
     signal: str
     condition: str
@@ -55,6 +56,7 @@ class KeyFigure:
     noise: float
     runs: int
     repeated: bool
+    dof: int = 0
 
     @property
     def off(self) -> float:
@@ -77,7 +79,7 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
         groups[stream_of(record), record.condition].append(i)
     readings = {key: [reading_of(space.records[i], orders, rated) for i in indices] for key, indices in groups.items()}
     measured = {key: [r(np.asarray(space.records[i].values, float)) for i, r in zip(groups[key], own)] for key, own in readings.items()}
-    spread = between_runs(measured)
+    spread, freedom = between_runs(measured), repetitions_beyond(measured)
     found = []
     for (signal, condition), own in measured.items():
         indices, reading = groups[signal, condition], readings[signal, condition]
@@ -91,10 +93,11 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
         for name in names:
             values = [run[name] for run in own]
             by_samples = np.array([[d.get(name, np.nan) for d in read] for read in drawn])
-            noise = max(spread.get((signal, name), 0.0), float(np.nanstd(by_samples[0])))
+            drawn_noise, between = float(np.nanstd(by_samples[0])), spread.get((signal, name), 0.0)
+            noise, dof = (between, freedom[signal, name]) if between > drawn_noise else (drawn_noise, DRAWS - 1)
             model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in PLAIN else by_samples[1]
             found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
-                                   noise / np.sqrt(len(values)), len(values), (signal, name) in spread))  # fmt: skip
+                                   noise / np.sqrt(len(values)), len(values), (signal, name) in spread, dof))  # fmt: skip
     return found
 
 
@@ -125,6 +128,15 @@ def between_runs(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]
             if len(values) > 1:
                 deviations[signal, name] += list((values - np.median(values)) * np.sqrt(len(values) / (len(values) - 1)))
     return {key: robust(np.array(v)) for key, v in deviations.items()}
+
+
+def repetitions_beyond(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]]]) -> dict[tuple[str, str], int]:
+    """Degrees of freedom of ``between_runs``: repetitions beyond the first of each condition."""
+    found: dict[tuple[str, str], int] = defaultdict(int)
+    for (signal, _), runs in measured.items():
+        for name in runs[0]:
+            found[signal, name] += max(sum(name in run for run in runs) - 1, 0)
+    return found
 
 
 def robust(deviations: Floats) -> float:

@@ -31,3 +31,14 @@ def test_nothing_is_said_of_figures_within_their_noise():
     found = diagnosed(model_of())
     assert beside_none([replace(FIGURE, model=3.8e-6)], found.doctor.space, found.doctor.localisation.groups) == ""
     assert ";" not in found.reason
+
+
+def test_a_figure_that_is_rarer_than_chance_is_named_though_less_far_off():
+    found = diagnosed(model_of())
+    space = found.doctor.space
+    record = space.records[space.training[0]]
+    four = replace(FIGURE, signal=record.quantity, condition=record.condition, model=3.2e-6)
+    groups = found.doctor.localisation.groups
+    # Of a noise that is known, four times are rare; of one that two repetitions tell they are not.
+    assert beside_none([four], space, groups).startswith("the figure that chance makes least often (p = 6e-05 among all), of 1, is sun")
+    assert beside_none([replace(four, dof=2)], space, groups) == ""

@@ -17,7 +17,7 @@ from discrepancy.scales import of_axis
 from fmu_src.arrays import Floats
 from pages.content import Page
 from pages.look import significant
-from pages.words import number
+from pages.words import capital, number
 from workbench.doubts import apart, cells_of
 from workbench.page_words import on_page
 
@@ -62,7 +62,8 @@ def view(result: Comparison, page: Page) -> tuple[dict[str, Any], bytes]:
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign, diagnosed=bool(model.file.effects)),
         "cards": [asdict(c) for c in page.cards],
-        "figures": figures(result.figures), "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
+        "figures": figures(result.figures), "of_chance": capital(amounts.in_words(comparison.chance_of(result))),
+        "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
         "orders": named, "nuisances": result.nuisances,

@@ -12,6 +12,7 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
+from discrepancy.figure_chance import chance_text
 from discrepancy.figure_digits import figure_texts, plain_text
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
@@ -78,15 +79,17 @@ def show_comparison(comparison: Comparison) -> None:
             out.print(f"  {text}")
         if unsure := unsure_text(comparison.diagnostician.space.base):
             out.print(f"  {unsure}")
-    show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances))
+    of_chance = "" if comparison.diagnostician.localisation.findings else chance_text(comparison.figures)
+    show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances), of_chance=of_chance)
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
 
-def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "") -> None:
+def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "",
+                 of_chance: str = "") -> None:  # fmt: skip
     """Key figures, a row for each kind with the condition where it is furthest off; the signal first that has the furthest.
 
-    ``after``: the same with what was ``added`` to the model, if anything was.
+    ``after``: the same with what was ``added`` to the model, if anything was; ``of_chance``: what chance makes of them.
     """
     told = told_figures(figures)
     if not told:
@@ -103,6 +106,8 @@ def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibr
         out.print(remark)
     if others := others_text(figures):
         out.print(f"{others}: --json lists all")
+    if of_chance:
+        out.print(of_chance)
 
 
 def figure_rows(figures: Sequence[KeyFigure], after: Mapping[int, KeyFigure]) -> list[tuple[str, ...]]:
@@ -184,7 +189,8 @@ def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, shortened(answer.warnings, standing))
-    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added)
+    of_chance = chance_text(answer.figures) if answer.verdict == NONE else ""
+    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added, of_chance)
     rejected = turned_down(answer)[:6]
     if rejected:
         # Of nothing there are no rivals.

@@ -5,6 +5,7 @@ from typing import Any
 
 from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
+from discrepancy.figure_chance import chance_text
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
@@ -30,7 +31,7 @@ def page(result: Comparison) -> Page:
     orders, no_orders = order_figures(runs)
     # What one asks first: numbers, then curves, then maps.
     sections = [
-        *figures_section(result.figures, result.model.file, bool(result.nuisances)),
+        *figures_section(result.figures, result.model.file, bool(result.nuisances), chance_of(result)),
         Section(
             "runs",
             "Measured against predicted",
@@ -203,7 +204,12 @@ def order_figures(runs: list[Run]) -> tuple[list[Figure], list[str]]:
     return figures, reasons
 
 
-def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool) -> list[Section]:
+def chance_of(result: Comparison) -> str:
+    """What chance makes of the key figures, where no place carries a significant misfit; else what is off is said already."""
+    return "" if result.diagnostician.localisation.findings else chance_text(result.figures)
+
+
+def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool, of_chance: str = "") -> list[Section]:
     """Key figures, measured against the model as it stands in ``file``; also of a diagnosis.  Of many those that are furthest off, all of them folded."""
     if not figures:
         return []
@@ -213,6 +219,8 @@ def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool)
     )
     if calibrated:
         lead += " The model's are those after its calibration to this campaign; rvwear hysteresis and bench give them without it."
+    if of_chance:
+        lead += f" {capital(amounts.in_words(of_chance))}."
     if not (others := others_text(figures)):
         return [Section("figures", "Key figures", lead, [], [figures_table(figures, calibrated)])]
     tables = [figures_table(told_figures(figures), calibrated), replace(figures_table(figures, calibrated), folded=f"All {len(figures)} key figures")]

@@ -33,7 +33,7 @@ def measured(given: Given) -> dict[str, float]:
 
 
 def given_words(given: Given) -> str:
-    """What was given in words, each number with its unit; of speed and rollers, which every reducer has, those that nobody gave are said to be usual."""
+    """What was given in words, each number with the unit that it is read in; of speed and rollers those that nobody gave are said to be usual."""
     said = [f"ratio {given.ratio:g}", *([f"{given.pins} pins"] if given.pins_counted else []), f"rated torque {given.rated:g} N m"]
     said += [f"diameter {given.diameter:g} mm"] if given.diameter is not None else []
     said += [f"{given.cranks} cranks"] if given.cranks is not None else []

@@ -84,6 +84,7 @@ export function keyFigures({ result, all, text, matches, search, showAll }) {
             `all ${result.figures.length} figures (${told.length < kinds.length ? `the ${told.length} kinds furthest off or of the catalogue are shown, ${kinds.length - told.length} nearer ones not` : "every kind is shown"}, each at the condition where it is furthest off)`,
           )
         : null,
+      result.of_chance ? h("p", { class: "quiet small" }, `${result.of_chance}.`) : null,
     ),
   );
 }
