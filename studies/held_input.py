@@ -54,4 +54,9 @@ def next_place(pair: Pair, way: Floats) -> float:
         pair.master.step()
         turning[i] = pair.plant.number("transmission_error")
     pair.master.restore(here)
+    return lost_along(way, turning)
+
+
+def lost_along(way: Floats, turning: Floats) -> float:
+    """Turning [rad] between the last torque of a ``way_back`` [N m] and as much of the first sense."""
     return float(abs(turning[-1] - turning[int(np.argmin(abs(way + way[-1])))]))

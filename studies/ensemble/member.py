@@ -13,7 +13,7 @@ from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import DUTY_FACTORS
 from studies.ensemble.figures import Outcome
-from studies.hysteresis import LOST_MOTION_SHARE
+from studies.held_input import lost_along, way_back
 from studies.life import Life, LifeSettings, live
 from studies.meshing_cycle import HOUR
 from studies.pair import Pair, make_pair
@@ -57,18 +57,18 @@ def stiffness_figures(pair: Pair) -> dict[str, float]:
     unit = pair.plant
     assert isinstance(unit, InProcess)
     torque = abs(unit.number("load_torque"))
-    way = np.array([torque, LOST_MOTION_SHARE * torque, -LOST_MOTION_SHARE * torque])
+    way = way_back(torque)
     lags, lost = [], []
     for _ in range(PLACES):
         pair.master.run(max(1, pair.positions // PLACES))
         lags.append(unit.number("lag"))
-        plant, turning = unit.records.copy(), np.zeros(3)
+        plant, turning = unit.records.copy(), np.zeros(len(way))
         places = np.zeros((len(way), plant["z"].shape[1]))
         plant["input_speed"], plant["fidelity"] = 0.0, 0
         status = torque_sweep(plant, way, turning, places, places, False)
         if status != 0:
             raise RunFault(unit.unit.fault_text(status, plant, 0.0))
-        lost.append(abs(turning[1] - turning[2]))
+        lost.append(lost_along(way, turning))
     pair.master.restore(saved)
     return {"lost_motion_arcmin": float(np.mean(lost)) * ARCMIN, "lag_arcsec": abs(float(np.mean(lags))) * ARCSEC}
 
