@@ -22,9 +22,8 @@ def changed_figures(result: Extension) -> list[Section]:
 def figures_of_answer(answer: Answer) -> list[Section]:
     """Those of a diagnosis: of the base model, and with what is named in it where something was fitted."""
     calibrated = bool(answer.diagnosis.nuisances)
-    of_chance = chance_text(answer.figures) if answer.verdict == NONE else ""
     if not answer.figures_after:
-        return figures_section(answer.figures, answer.model.file, calibrated, of_chance)
+        return figures_section(answer.figures, answer.model.file, calibrated, chance_text(answer.figures) if answer.verdict == NONE else "")
     lead = (
         f"Read alike from what was measured, from {answer.model.file.in_words} and from it with {amounts.effects_title(answer.added)}, as fitted"
         f"{', each calibrated to this campaign' if calibrated else ''}."
