@@ -189,7 +189,12 @@ function showWork(jobs) {
     work,
     h("b", {}, doing(kind, job.given)),
     bar,
-    h("span", { class: "doing", title: [step, said && `so far: ${said}`].filter(Boolean).join("\n") }, step, said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null),
+    h(
+      "span",
+      { class: "doing", title: [step, said && `so far: ${said}`].filter(Boolean).join("\n") },
+      step,
+      said ? h("span", { class: "quiet" }, ` · so far: ${said}`) : null,
+    ),
     h("span", { class: "quiet" }, job.seconds ? duration(job.seconds) : ""),
     h("button", { type: "button", id: "stop", onclick: () => act(post(`jobs/${kind}/stop`)) }, kind === "life" ? "Pause" : "Stop"),
     queue.waits.length

@@ -237,9 +237,16 @@ export function show(root, context) {
     const fill = () => {
       const drawn = spec({ part, shift, asMeasured, several: condition === "*" }, signal, members);
       plot.set(drawn);
+      if (!shift || members[0].stems) {
+        clear(left);
+        return;
+      }
       // Counted as the chips count it.
-      const errors = drawn.panes[1].lines.map((line, k) => ({ ratio: ((members[k].ratio ?? 0) * rms(line.y, line.aside)) / rms(part(members[k].residual), line.aside) }));
-      clear(left, shift && !members[0].stems ? `${times(ratio(errors))} as shifted; for looking only` : "");
+      const errors = drawn.panes[1].lines.map(({ y, aside }, k) => {
+        const { ratio, residual } = members[k];
+        return { ratio: ((ratio ?? 0) * rms(y, aside)) / rms(part(residual), aside) };
+      });
+      clear(left, `shifted so, it errs by ${times(ratio(errors))} its noise; for looking only, what is saved stays`);
     };
     fill();
     const shifted = h("input", {
