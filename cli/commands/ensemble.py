@@ -9,7 +9,6 @@ from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
 from cli.options import add_json, page_path
 from cli.written import only_file, say_file
-from exports.plain import plain_json
 from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
 from fmu_src.held_file import held
@@ -69,6 +68,7 @@ def live_and_judge(options: argparse.Namespace, drawn: "Ensemble", path: Path) -
     """The lives that are missing, kept as they come, and what all of them say."""
     from cli import screen
     from cli.show.ensemble import show
+    from exports.plain import plain_json
     from fmu_src.source_hash import source_hash
     from studies.ensemble.backends import through_dask, through_joblib
     from studies.ensemble.bands import kept
