@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from exports.plain import plain_json
-from fmu_src.display import in_print
+from fmu_src.unit_words import in_print
 from studies.figure_units import WHICH_ERROR, figure_unit
 
 # Wide enough for all tables, also where the output goes to a file.

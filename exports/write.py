@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from exports.plain import decimal, plain
+from exports.decimal_digits import decimal
+from exports.plain import plain
 from exports.tables import Table
 from fmu_src.checked_file import replacing
 from fmu_src.faults import InputFault, MissingPart

@@ -75,11 +75,6 @@ def read_text(value: float, unit: str, digits: int) -> str:
     return f"{number:.{digits}g}{'' if found == '1' else f' {found}'}"
 
 
-def in_print(unit: str) -> str:
-    """A unit as a sentence or a table on the screen has it; what is typed and what files hold keep their point: N.m."""
-    return unit.replace("N.m", "N m")
-
-
 @cache
 def displays(unit: str) -> tuple[Display, ...]:
     """All that a tool may offer for a unit, those of single variables not included."""

@@ -91,3 +91,8 @@ def unit_of(text: str) -> tuple[str, str] | None:
     """(unit, kind) that a text alone is, if it is one."""
     word = plain(text.strip().strip("[](){}（）"))
     return KNOWN.get(word) or (LOWER.get(word.lower()) if len(word) >= LEAST_LOWER else None)
+
+
+def in_print(unit: str) -> str:
+    """A unit as a sentence or a table on the screen has it; what is typed and what files hold keep their point: N.m."""
+    return unit.replace("N.m", "N m")

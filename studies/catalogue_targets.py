@@ -3,8 +3,8 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
-from fmu_src.display import in_print
 from fmu_src.faults import RunFault
+from fmu_src.unit_words import in_print
 from reducers.checking import Check
 from reducers.completion.again import command, given_again
 from reducers.completion.given import GAP, PLAY, Given

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cli.main import main
-from exports.plain import decimal
+from exports.decimal_digits import decimal
 from exports.tables import Column, Table
 from exports.write import write_tables
 from fmu_src.units import conversion

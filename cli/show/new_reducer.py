@@ -6,7 +6,8 @@ from pathlib import Path
 from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
-from fmu_src.display import in_print, read_text
+from fmu_src.display import read_text
+from fmu_src.unit_words import in_print
 from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, Completion
