@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from exports.plain import plain_json
-from fmu_src.unit_words import in_print
+from fmu_src.unit_words import unit_on_screen
 from studies.figure_units import WHICH_ERROR, figure_unit
 
 # Wide enough for all tables, also where the output goes to a file.
@@ -53,5 +53,5 @@ def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] =
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
         unit = units.get(name) or figure_unit(name)
         which = f"\n  {WHICH_ERROR[name]}" if name in WHICH_ERROR else ""
-        table.add_row(f"{name}{which}", text, "" if unit == "1" else in_print(unit))
+        table.add_row(f"{name}{which}", text, "" if unit == "1" else unit_on_screen(unit))
     console().print(table)

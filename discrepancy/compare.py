@@ -19,6 +19,7 @@ from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
+from discrepancy.figure_chance import chance_text
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
@@ -70,6 +71,11 @@ class Comparison:
     outlying: list[Outlying] = field(default_factory=list)
     figures: list[KeyFigure] = field(default_factory=list)
     scale_doubts: list[Finding] = field(default_factory=list)
+
+    @property
+    def of_chance(self) -> str:
+        """What chance makes of the key figures, where no place carries a significant misfit; else what is off is said already."""
+        return "" if self.diagnostician.localisation.findings else chance_text(self.figures)
 
     def as_json(self) -> dict[str, Any]:
         tables, units = as_told.tables_of(self.model), {p.name: p.unit for p in self.model.nuisances}

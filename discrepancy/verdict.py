@@ -16,6 +16,7 @@ from discrepancy.beside_none import beside_none
 from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
+from discrepancy.figure_chance import chance_text
 from discrepancy.hidden_by_position import hidden_by_position
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
@@ -69,6 +70,11 @@ class Answer:
     def added(self) -> str:
         """What ``figures_after`` have in the model; of alternatives the first."""
         return self.diagnosis.fits.members[0].name if self.diagnosis.fits.members else ""
+
+    @property
+    def of_chance(self) -> str:
+        """What chance makes of the key figures, where nothing is missing."""
+        return chance_text(self.figures) if self.verdict == NONE else ""
 
     @property
     def left_over(self) -> str:

@@ -93,6 +93,6 @@ def unit_of(text: str) -> tuple[str, str] | None:
     return KNOWN.get(word) or (LOWER.get(word.lower()) if len(word) >= LEAST_LOWER else None)
 
 
-def in_print(unit: str) -> str:
+def unit_on_screen(unit: str) -> str:
     """A unit as a sentence or a table on the screen has it; what is typed and what files hold keep their point: N.m."""
     return unit.replace("N.m", "N m")

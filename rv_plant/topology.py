@@ -1,7 +1,7 @@
 """The counts that fix the sizes of a unit's arrays."""
 
 from dataclasses import dataclass
-from math import gcd
+from math import gcd, pi
 
 from fmu_src.variables import Sizes
 
@@ -22,6 +22,11 @@ class Topology:
     def ways(self) -> int:
         """In how many ways it is turned onto itself, by parts of a turn: discs, cranks and pins each onto others of their kind."""
         return gcd(self.discs, self.cranks, self.pins)
+
+    @property
+    def roller_pitch(self) -> float:
+        """From a roller to the next [rad]: cages so much further on look as they did."""
+        return 2.0 * pi / self.rollers
 
     def sizes(self) -> Sizes:
         """The same by axis; arrays over output pins are never empty."""

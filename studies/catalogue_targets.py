@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from fmu_src.faults import RunFault
-from fmu_src.unit_words import in_print
+from fmu_src.unit_words import unit_on_screen
 from reducers.checking import Check
 from reducers.completion.again import command, given_again
 from reducers.completion.given import GAP, PLAY, Given
@@ -39,7 +39,7 @@ class Target:
 
     @property
     def words(self) -> str:
-        return f"{self.name} {self.asked:g} {in_print(self.unit)} asked, {self.reached:.3g} reached"
+        return f"{self.name} {self.asked:g} {unit_on_screen(self.unit)} asked, {self.reached:.3g} reached"
 
 
 def asked_of(given: Given | None) -> dict[str, float]:
@@ -76,7 +76,7 @@ def held_against(found: Check) -> tuple[Check, list[Target]]:
     missed = [target for target in targets if not target.is_met]
     nearer = any(target.name != LOST_MOTION or not is_narrowest(given) for target in missed)
     doubts = [
-        f"{target.name} {target.reached:.3g} {in_print(target.unit)} misses the catalogue's {target.asked:g} {in_print(target.unit)}, {target.miss_words}: "
+        f"{target.name} {target.reached:.3g} {(unit := unit_on_screen(target.unit))} misses the catalogue's {target.asked:g} {unit}, {target.miss_words}: "
         + ("it was not made for it, or other numbers were changed since; complete it anew" if nearer else
            f"of {', '.join(PLAY)} each is given or the least of its range; look at what is given, or measure one of them")
         for target in missed

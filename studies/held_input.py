@@ -6,7 +6,7 @@ import numpy as np
 
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
-from rv_plant.faults import DYNAMIC
+from rv_plant.faults import DYNAMIC, QUASI_STATIC
 from studies.hysteresis import LOST_MOTION_SHARE, torque_way
 from studies.pair import Pair
 from studies.solve import ARCMIN
@@ -28,7 +28,11 @@ def lost_motion(pair: Pair) -> float:
     saved = pair.master.save()
     try:
         pair.wear.set("acceleration", 0.0)
-        return float(np.mean([next_place(pair, way) for _ in range(PLACES)])) * ARCMIN
+        lost = []
+        for _ in range(PLACES):
+            pair.master.run(max(1, pair.positions // PLACES))
+            lost.append(lost_here(pair, way))
+        return float(np.mean(lost)) * ARCMIN
     except RunFault:
         return math.nan
     finally:
@@ -43,20 +47,17 @@ def way_back(torque: float) -> Floats:
     return back[back >= -(1.0 + 1e-9) * LOST_MOTION_SHARE * torque]
 
 
-def next_place(pair: Pair, way: Floats) -> float:
-    """Turning [rad] at the next place of the turn, from which the pair can go on."""
-    pair.master.run(max(1, pair.positions // PLACES))
+def lost_here(pair: Pair, way: Floats) -> float:
+    """Turning [rad] along a ``way_back`` at the present place, to which the pair is put back."""
     here = pair.master.save()
     pair.plant.set("input_speed", 0.0)
+    if pair.plant.get("fidelity") == DYNAMIC:
+        # With the input held nothing moves.
+        pair.plant.set("fidelity", QUASI_STATIC)
     turning = np.zeros(len(way))
     for i, value in enumerate(way):
         pair.plant.set("load_torque", float(value))
         pair.master.step()
         turning[i] = pair.plant.number("transmission_error")
     pair.master.restore(here)
-    return lost_along(way, turning)
-
-
-def lost_along(way: Floats, turning: Floats) -> float:
-    """Turning [rad] between the last torque of a ``way_back`` [N m] and as much of the first sense."""
     return float(abs(turning[-1] - turning[int(np.argmin(abs(way + way[-1])))]))

@@ -28,7 +28,7 @@ def bench():
 
 @pytest.fixture(scope="module")
 def pitch(bench):
-    return 2.0 * math.pi / bench.reducer.topology.rollers
+    return bench.reducer.topology.roller_pitch
 
 
 @pytest.fixture(scope="module")

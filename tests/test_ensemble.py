@@ -16,6 +16,7 @@ pytest.importorskip("SALib")
 from cli.main import main
 from exports.plain import plain
 from fmu_src.faults import InputFault
+from orchestrator.settings import parse_setting
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import load_ensemble
@@ -95,6 +96,9 @@ def test_lost_motion_of_a_new_reducer_is_that_of_its_life(rv20e):
     """It was 0.18 arcmin where a life told 0.91: between two torques in one step what friction held counted as no turning."""
     pair = make_pair(rv20e)
     assert stiffness_figures(pair)["lost_motion_arcmin"] == pytest.approx(lost_motion(pair), rel=0.05)
+    # In motion, too: with the input held nothing moves.
+    moving = make_pair(rv20e, [parse_setting("fidelity=dynamic", (rv20e.plant, rv20e.wear))])
+    assert stiffness_figures(moving)["lost_motion_arcmin"] == pytest.approx(lost_motion(pair), rel=0.05)
 
 
 def test_a_duty_scatters_by_factors(rv20e, file):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from nothing import Nothing
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit import localise
@@ -28,19 +29,6 @@ def curve(samples: int, noise: float = 1e-6, replicate: int = 1, turns: float = 
     angle = np.linspace(0.0, turns * TURN, samples, endpoint=False)
     values = 3e-6 * np.cos(78 * angle) + np.random.default_rng(replicate).normal(0.0, noise, samples)
     return Record(f"te{replicate}", "transmission_error", "rad", "a", replicate, values, {"angle": angle}, RATED)
-
-
-class Nothing:
-    """A model that predicts no transmission error."""
-
-    nuisances = ()
-    candidates = ()
-
-    def __init__(self, records):
-        self.records = records
-
-    def predict(self, values, which=None):
-        return [np.zeros(len(self.records[i].values)) for i in (range(len(self.records)) if which is None else which)]
 
 
 def test_means_of_neighbours_are_the_record_with_fewer_samples():

@@ -10,7 +10,7 @@ from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cages import Cages
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fineness import Fineness
-from discrepancy.prediction.over_angle import ANYWHERE, CAGES, OverAngle
+from discrepancy.prediction.over_angle import CAGES, QUARTERS, OverAngle
 from discrepancy.problem import Record
 from fmu_src.threads import Threads
 from reducers.reducer import load_reducer
@@ -29,7 +29,7 @@ def bench():
 
 @pytest.fixture(scope="module")
 def pitch(bench):
-    return 2.0 * math.pi / bench.reducer.topology.rollers
+    return bench.reducer.topology.roller_pitch
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,7 @@ def record(bench, pitch):
 
 def test_where_nobody_looked_the_mean_over_all_places_of_the_cages_is_changed(bench, pitch, record):
     shown, plain = (OverAngle(bench, record, ERROR).directly(values) for values in (SPALL, {}))
-    by_place = [OverAngle(bench, record, ERROR, k * pitch / ANYWHERE) for k in range(ANYWHERE)]
+    by_place = [OverAngle(bench, record, ERROR, share * pitch) for share in QUARTERS]
     changes = [curve.directly(SPALL) - curve.directly({}) for curve in by_place]
     assert shown == pytest.approx(plain + np.mean(changes, axis=0), abs=1e-12)
     # They differ by more than the mean itself.

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from nothing import Nothing
 
 from cli.show import comparison as shows
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -28,17 +29,6 @@ def loop(replicate):
     torque = 100.0 * np.sin(np.linspace(0.0, TURN, 400))
     values = 90.0 * np.sqrt(3.0) * torque / 100.0 * np.abs(torque) / 100.0 + np.random.default_rng(10 + replicate).normal(0.0, 1.0, 400)
     return Record(f"loop{replicate}", "hysteresis", "rad", "b", replicate, values, {"torque": torque}, {}, tags={"locked": "input"})
-
-
-class Nothing:
-    nuisances = ()
-    candidates = ()
-
-    def __init__(self, records):
-        self.records = records
-
-    def predict(self, values, which=None):
-        return [np.zeros(len(self.records[i].values)) for i in (range(len(self.records)) if which is None else which)]
 
 
 def test_a_signal_that_is_off_all_over_has_the_share_of_what_it_is_off():

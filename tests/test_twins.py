@@ -129,7 +129,7 @@ def test_anchors_stand_closer_where_noise_is_less(bench):
 @pytest.mark.parametrize("noise", [1e-5, 1e-8])
 def test_ripple_of_the_cages_errs_less_than_noise_shows(bench, noise):
     record = recorded(bench, noise)
-    pitch = 2.0 * np.pi / bench.reducer.topology.rollers
+    pitch = bench.reducer.topology.roller_pitch
     [found] = cage_ripples(bench, record, {}, [0.5 * pitch])
     exact, there = (bench.running(COLD, {}, record.axes["angle"], cage)[:, COLUMNS.index(ERROR)] for cage in (0.5 * pitch, 0.0))
     error = np.std(found - (exact - there))

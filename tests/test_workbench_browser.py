@@ -59,11 +59,17 @@ def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, t
     page.get_by_text("2 runs in 2 files, 1 condition").wait_for()
 
 
-def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
+def on_a_telephone(bench):
+    """The page of an empty folder, 390 points wide."""
     page = bench.page
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(bench.address)
     page.get_by_text("Drop what the bench wrote").wait_for()
+    return page
+
+
+def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one_line(bench):
+    page = on_a_telephone(bench)
     cut = page.evaluate("""async () => {
       const { h, table } = await import('./static/dom.js'), place = document.getElementById('view');
       place.replaceChildren(h('div', { class: 'panel' }, table(['signal', 'changes it by', 'error before', 'after'], [['transmission error', '0.0777 arcsec', '0.467 arcsec', '0.467 arcsec']])));
@@ -85,10 +91,7 @@ def test_on_a_telephone_tables_are_rows_names_fold_and_the_job_at_work_takes_one
 
 def test_on_a_telephone_how_far_a_figure_is_off_has_its_name(bench):
     """97.9 stood alone below a torsional stiffness: the head of its column is gone there."""
-    page = bench.page
-    page.set_viewport_size({"width": 390, "height": 844})
-    page.goto(bench.address)
-    page.get_by_text("Drop what the bench wrote").wait_for()
+    page = on_a_telephone(bench)
     heads = page.evaluate("""async () => {
       const { keyFigures } = await import('./static/look_parts.js');
       const figure = { signal: 's', title: 'hysteresis', condition: 'c', name: 'torsional stiffness', unit: 'N·m/arcmin', measured: '44.661', noise: '0.054', model: '49.976', off: 97.9, runs: 2, repeated: true, why: null };

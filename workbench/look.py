@@ -11,7 +11,6 @@ from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, spectra, whys
-from discrepancy.page.comparison import chance_of
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS
 from discrepancy.scales import of_axis
@@ -63,7 +62,7 @@ def view(result: Comparison, page: Page) -> tuple[dict[str, Any], bytes]:
         "title": page.title, "conditions": page.conditions, "finding": page.finding,
         "doubts": doubts, "warnings": warnings, "cells": cells_of(page.warnings, model.campaign, diagnosed=bool(model.file.effects)),
         "cards": [asdict(c) for c in page.cards],
-        "figures": figures(result.figures), "of_chance": capital(amounts.in_words(chance_of(result))),
+        "figures": figures(result.figures), "of_chance": capital(amounts.in_words(result.of_chance)),
         "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
         "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],

@@ -12,7 +12,6 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
-from discrepancy.figure_chance import chance_text
 from discrepancy.figure_digits import figure_texts, plain_text
 from discrepancy.held_shapes import held_text
 from discrepancy.inference.misfit.localise import Localisation
@@ -79,8 +78,7 @@ def show_comparison(comparison: Comparison) -> None:
             out.print(f"  {text}")
         if unsure := unsure_text(comparison.diagnostician.space.base):
             out.print(f"  {unsure}")
-    of_chance = "" if comparison.diagnostician.localisation.findings else chance_text(comparison.figures)
-    show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances), of_chance=of_chance)
+    show_figures(comparison.figures, out, comparison.model.file, bool(comparison.nuisances), of_chance=comparison.of_chance)
     show_localisation(comparison.diagnostician.localisation, out)
     show_warnings(out, comparison.warnings)
 
@@ -189,8 +187,7 @@ def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
     for law in answer.laws:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, shortened(answer.warnings, standing))
-    of_chance = chance_text(answer.figures) if answer.verdict == NONE else ""
-    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added, of_chance)
+    show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added, answer.of_chance)
     rejected = turned_down(answer)[:6]
     if rejected:
         # Of nothing there are no rivals.

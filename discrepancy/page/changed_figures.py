@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 
 from discrepancy.extend import Extension
-from discrepancy.figure_chance import chance_text
-from discrepancy.inference.verdict import NONE
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, whys
 from discrepancy.page.comparison import figures_section
@@ -23,7 +21,7 @@ def figures_of_answer(answer: Answer) -> list[Section]:
     """Those of a diagnosis: of the base model, and with what is named in it where something was fitted."""
     calibrated = bool(answer.diagnosis.nuisances)
     if not answer.figures_after:
-        return figures_section(answer.figures, answer.model.file, calibrated, chance_text(answer.figures) if answer.verdict == NONE else "")
+        return figures_section(answer.figures, answer.model.file, calibrated, answer.of_chance)
     lead = (
         f"Read alike from what was measured, from {answer.model.file.in_words} and from it with {amounts.effects_title(answer.added)}, as fitted"
         f"{', each calibrated to this campaign' if calibrated else ''}."

@@ -5,7 +5,6 @@ from typing import Any
 
 from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
-from discrepancy.figure_chance import chance_text
 from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
@@ -31,7 +30,7 @@ def page(result: Comparison) -> Page:
     orders, no_orders = order_figures(runs)
     # What one asks first: numbers, then curves, then maps.
     sections = [
-        *figures_section(result.figures, result.model.file, bool(result.nuisances), chance_of(result)),
+        *figures_section(result.figures, result.model.file, bool(result.nuisances), result.of_chance),
         Section(
             "runs",
             "Measured against predicted",
@@ -202,11 +201,6 @@ def order_figures(runs: list[Run]) -> tuple[list[Figure], list[str]]:
         figures += [drawn] if drawn else []
         reasons += [f"{capital(amounts.signal_title(signal))}: {why}"] if why else []
     return figures, reasons
-
-
-def chance_of(result: Comparison) -> str:
-    """What chance makes of the key figures, where no place carries a significant misfit; else what is off is said already."""
-    return "" if result.diagnostician.localisation.findings else chance_text(result.figures)
 
 
 def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool, of_chance: str = "") -> list[Section]:

@@ -98,7 +98,7 @@ def likely_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: fl
 
 def without_cages(bench: Bench, record: Record, own: dict[str, float], zero: float, left: Floats) -> Floats:
     """What a record is off (n,) by with its angle 0 at ``zero`` [rad], without what cages that stand elsewhere could make of it."""
-    pitch = 2.0 * np.pi / bench.reducer.topology.rollers
+    pitch = bench.reducer.topology.roller_pitch
     ahead = cage_ripples(bench, record, {**own, angle_zero(record): zero}, [share * pitch for share in (0.25, 0.5, 0.75)])
     waves = np.column_stack([np.ones(len(left)), ahead[1], ahead[0] - ahead[2]])
     rest: Floats = left - waves @ np.linalg.lstsq(waves, left, rcond=None)[0]

@@ -1,6 +1,5 @@
 """What the place of the roller cages changes in curves of the bench: in a transmission error, and in a loop at one locked place."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TypeVar
@@ -53,7 +52,7 @@ def is_seen(curve: OverAngle) -> bool:
 
     def seen() -> bool:
         angles = curve.support(nodes_of(curve, {}), {}).angles
-        quarter = 0.5 * math.pi / curve.bench.reducer.topology.rollers
+        quarter = 0.25 * curve.bench.reducer.topology.roller_pitch
         return any(misses(curve, change) for change in to_first_order(curve, {}, angles, [quarter]))
 
     return curve.bench.kept(("ripple is seen", *identity(curve.record)), seen)

@@ -18,7 +18,7 @@ from discrepancy.prediction.cage_ripples import errors_of_cages
 from discrepancy.prediction.conditions import turns_of
 from discrepancy.prediction.fewer import fewer
 from discrepancy.prediction.observe import OBSERVED, ripples_of_cages
-from discrepancy.prediction.over_angle import CAGES, is_rolled_over, passed_at
+from discrepancy.prediction.over_angle import CAGES, QUARTERS, is_rolled_over, passed_at
 from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import whitening
 from discrepancy.problem import Record, is_unplaced
@@ -29,8 +29,6 @@ from fmu_src.threads import Threads
 LONG, LONG_LOOP = 40, 16
 # Places of the cages within a pitch that are weighed.
 PLACES = 64
-# Parts of the pitch at which the ripple is looked at.
-QUARTERS = (0.0, 0.25, 0.5, 0.75)
 # A place that is known so well is looked for once more, so far to either side, at so many places.
 KNOWN, BESIDE, LOOKS = 0.9, 0.08, 17
 # Steps in which the place of a ripple that has kinks is looked for once more.
@@ -51,7 +49,7 @@ class Cages:
 
     def __init__(self, bench: Bench, records: Sequence[Record], as_seen: AsSeen, threads: Threads):
         self.bench, self.as_seen, self.threads = bench, as_seen, threads
-        self.pitch = 2.0 * np.pi / bench.reducer.topology.rollers
+        self.pitch = bench.reducer.topology.roller_pitch
         self.records = apart([bridged(r) for r in records if tells(r) or is_unplaced(r)])
         self.amplitudes: dict[str, float] = {}
         self.ripples: dict[frozenset[str], dict[str, Floats]] = {}

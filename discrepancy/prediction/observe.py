@@ -52,8 +52,7 @@ def transmission_error_change(bench: Bench, record: Record, values: Values, base
 
 def ripples_of_cages(bench: Bench, record: Record, values: Values, shares: Iterable[float], exactly: bool = False) -> list[Floats]:
     """What cages each of ``shares`` of their rollers' pitch ahead change in the transmission error, or in a loop at one place."""
-    pitch = 2.0 * math.pi / bench.reducer.topology.rollers
-    cages = [float(share) * pitch for share in shares]
+    cages = [float(share) * bench.reducer.topology.roller_pitch for share in shares]
     return locked_ripples(bench, record, values, cages) if record.quantity in HELD else cage_ripples(bench, record, values, cages, exactly)
 
 

@@ -26,8 +26,8 @@ FIRMLY, LEAST_SHARE = 0.1, 0.01
 ALIKE = 10
 # How far a record's cages stand ahead [rad], among its factors; where there is none nobody knows it.
 CAGES = "cages"
-# Places of the cages whose mean is that of all.
-ANYWHERE = 4
+# Places of the cages, in parts of the rollers' pitch, whose mean is that of all.
+QUARTERS = (0.0, 0.25, 0.5, 0.75)
 # Amplitudes of effects that act as each roller passes, where they are off, and the angles that rollers pass.
 ROLLED_OVER = {p.variable.name: p.variable.start for effect in PLANT.values() if effect.rolled_over for p in effect.amplitudes()}
 PASSED = {p.variable.name: p.variable.start for effect in PLANT.values() for p in effect.parameters if p.variable.name == effect.rolled_over}
@@ -74,8 +74,7 @@ class OverAngle:
             return [cage]
         if not any(is_rolled_over(self.bench, values) for values in shown):
             return [0.0]
-        pitch = 2.0 * np.pi / self.bench.reducer.topology.rollers
-        return [pitch * k / ANYWHERE for k in range(ANYWHERE)]
+        return [share * self.bench.reducer.topology.roller_pitch for share in QUARTERS]
 
     def column(self, values: Values, angles: Floats, starts: Starts | None = None) -> Floats:
         """The signal at ``angles`` [rad]: of the base model with its cages at 0, and what ``values`` change in it wherever they stand."""

@@ -5,15 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fmu_src.faults import InputFault, RunFault
-from orchestrator.component import InProcess
 from orchestrator.settings import ArraySetting, Setting
 from reducers.reducer import Reducer
-from studies.coupled import torque_sweep
 from studies.coupled_master import CoupledMaster
 from studies.duty import Segment
 from studies.ensemble.ensemble_file import DUTY_FACTORS
 from studies.ensemble.figures import Outcome
-from studies.held_input import lost_along, way_back
+from studies.held_input import lost_here, way_back
 from studies.life import Life, LifeSettings, live
 from studies.meshing_cycle import HOUR
 from studies.pair import Pair, make_pair
@@ -54,21 +52,12 @@ def stiffness_figures(pair: Pair) -> dict[str, float]:
     """Lag over a turn and lost motion at the present wear; the pair's state is put back."""
     saved = pair.master.save()
     pair.wear.set("acceleration", 0.0)
-    unit = pair.plant
-    assert isinstance(unit, InProcess)
-    torque = abs(unit.number("load_torque"))
-    way = way_back(torque)
+    way = way_back(abs(pair.plant.number("load_torque")))
     lags, lost = [], []
     for _ in range(PLACES):
         pair.master.run(max(1, pair.positions // PLACES))
-        lags.append(unit.number("lag"))
-        plant, turning = unit.records.copy(), np.zeros(len(way))
-        places = np.zeros((len(way), plant["z"].shape[1]))
-        plant["input_speed"], plant["fidelity"] = 0.0, 0
-        status = torque_sweep(plant, way, turning, places, places, False)
-        if status != 0:
-            raise RunFault(unit.unit.fault_text(status, plant, 0.0))
-        lost.append(lost_along(way, turning))
+        lags.append(pair.plant.number("lag"))
+        lost.append(lost_here(pair, way))
     pair.master.restore(saved)
     return {"lost_motion_arcmin": float(np.mean(lost)) * ARCMIN, "lag_arcsec": abs(float(np.mean(lags))) * ARCSEC}
 
