@@ -106,7 +106,7 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
                                 alternatives={}, rejected=[], base_off=[], nuisances={})
     effect = {"name": "play", "variant": "", "candidates": ["play"], "forms": {}, "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
-    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="",
+    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="", of_chance="",
                            model=SimpleNamespace(file=load_model("RV20E-121")))
 
 
