@@ -69,7 +69,8 @@ class Asked:
 
 @dataclass(frozen=True)
 class NextRun:
-    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains; ``untold``: with what
+    """``proposals`` best first; ``rivals`` are what they separate; ``asked``: what shows a misfit better that nothing explains, or, where
+    nothing is missing, what these runs cannot show; ``untold``: with what
     the verdict begins, which no run of these signals tells."""
 
     answer: Answer
@@ -147,6 +148,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         text = start or rest_text(f"{known} stands alone" if known else "nothing is missing that this campaign shows", untold, campaign)
         before = of_model_before(answer) if answer.verdict == NONE else ""
         either = [] if unexplained else telling_either(answer, campaign)
+        # What is not missing as far as these runs show may be so for what they do not show.
+        left = left or [Asked(f.remedy, f.text) for f in (answer.would_show.lacking if answer.would_show else ())]
         return NextRun(answer, None, list(names), "; ".join(filter(None, [*untold, *either, text, against, before])), left, untold)
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)

@@ -37,6 +37,7 @@ from discrepancy.unstated_texts import unstated_texts
 from discrepancy.untold import origins_untold, parts_untold_before
 from discrepancy.waves import waves_of
 from discrepancy.whose_angle import gained_as_input
+from discrepancy.would_show import WouldShow, would_show
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
 
@@ -47,6 +48,7 @@ class Answer:
     ``made`` is when it was made [s since 1970], ``made_in`` the campaign's folder: one that is kept is found again later;
     ``profiles`` of fits by their name, once a page has drawn them;
     ``untold``: from which of two things what is named, or stands in the model file, comes; ``zeros``: of angles [rad], as loops tell them;
+    ``would_show``: what an answer is worth that nothing is missing;
     ``figures`` are of the base model, ``figures_after`` the same with what fits best in it, empty where nothing was fitted."""
 
     model: PhysicalModel
@@ -65,6 +67,7 @@ class Answer:
     zeros: dict[str, float] = field(default_factory=dict)
     profiles: dict[str, list[Profile]] = field(default_factory=dict, repr=False, compare=False)
     figures_after: list[KeyFigure] = field(default_factory=list)
+    would_show: WouldShow | None = None
 
     @property
     def added(self) -> str:
@@ -95,6 +98,7 @@ class Answer:
             "effects": self.effects, "confusable": self.confusable, "warnings": self.warnings, "untold": self.untold,
             "laws": [law.to_dict() for law in self.laws], "not_predicted": self.model.unpredicted,
             "key_figures": [f.as_json() for f in self.figures], "key_figures_after": [f.as_json() for f in self.figures_after],
+            "would_show": self.would_show.as_json() if self.would_show else None,
         }  # fmt: skip
 
     def as_json(self) -> dict[str, Any]:
@@ -201,7 +205,9 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # A stiffness that what is named explains is no riddle.
     warnings = untold + beforehand(model, after or figures) + doubts + places + warnings_of(model, list(found.warnings))
     warnings, zeros = list(dict.fromkeys(warnings)), zeros_told(model, fit)
-    return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros, figures_after=after)
+    worth = would_show(found, model) if verdict == NONE else None
+    return Answer(model, found, verdict, reason, effects, confusable, laws, warnings, figures, doctor, untold=untold, zeros=zeros, figures_after=after,
+                  would_show=worth)  # fmt: skip
 
 
 def told_in(model: PhysicalModel) -> Callable[[str], tuple[float, float, str]]:

@@ -16,11 +16,11 @@ from discrepancy.catalogue.examples import AUDITED, CASES, picture
 from discrepancy.catalogue.plots import PICTURE, figure
 from discrepancy.catalogue.signature import new_bench, signature, words
 from discrepancy.model_file import load_model
-from discrepancy.page.amounts import effect_title
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import NOT_BY_LOOPS, shown_by
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
+from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
 from rv_plant.effects import EFFECTS as PLANT_EFFECTS

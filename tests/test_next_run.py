@@ -97,7 +97,7 @@ def answer_of(verdict, members=(), findings=(), rivals=()):
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
     diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local, nuisances={})
     said = "that no effect of the catalogue explains"
-    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[], untold=[])
+    return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[], untold=[], would_show=None)
 
 
 @pytest.mark.parametrize(("verdict", "members"), [(INCOMPLETE, ["drag"]), (UNKNOWN, [])])

@@ -52,7 +52,7 @@ def test_of_several_signals_it_is_said_of_what_a_share_is(capsys):
 
 
 def test_what_separates_stands_before_what_shows_a_law(capsys):
-    answer = SimpleNamespace(model=SimpleNamespace(campaign=SimpleNamespace(rig=None)))
+    answer = SimpleNamespace(model=SimpleNamespace(campaign=SimpleNamespace(rig=None)), would_show=None)
     found = NextExperiment(True, "loops tell", [Proposal("loops at 20 degC", {}, 1.0, 9.0, 7.0, {})], {})
     shows.show_next(NextRun(answer, found, ["a", "b"], "loops tell", [Asked("hysteresis", "mount sensor and unit anew")]))
     shown = capsys.readouterr().out
@@ -106,7 +106,7 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
                                 alternatives={}, rejected=[], base_off=[], nuisances={})
     effect = {"name": "play", "variant": "", "candidates": ["play"], "forms": {}, "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
-    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="", of_chance="",
+    return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="", of_chance="", would_show=None,
                            model=SimpleNamespace(file=load_model("RV20E-121")))
 
 

@@ -12,7 +12,6 @@ import numpy as np
 from discrepancy import remembered
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.verdict import Settings
-from discrepancy.page import amounts
 from discrepancy.prediction.by_effects import Effects, Found
 from discrepancy.prediction.conditions import places_of_zero
 from discrepancy.prediction.defined_samples import defined_at
@@ -20,6 +19,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import ERROR, Record
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
+from fmu_src.effect_words import effect_title
 from workbench.thinned import kept_of, thinned
 
 # Of what is left at the zero that stands, what another has to take away: places are looked for in steps.
@@ -125,7 +125,7 @@ class Beside:
 
 def known_of(answer: Answer) -> list[Known]:
     """The fits of what is named."""
-    return [Known(frozenset(p.name for p in fit.own), " + ".join(amounts.effect_title(c.name) for c in fit.candidates), fit.fit.values)
+    return [Known(frozenset(p.name for p in fit.own), " + ".join(effect_title(c.name) for c in fit.candidates), fit.fit.values)
             for fit in answer.diagnosis.fits.members]  # fmt: skip
 
 

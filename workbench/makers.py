@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from discrepancy.compare import Comparison
-from discrepancy.page.amounts import effect_title
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, ERROR, ORDERS, Candidate
 from fmu_src.arrays import Floats
+from fmu_src.effect_words import effect_title
 from fmu_src.faults import RunFault
 
 # An effect makes an order in which it is at least so strong, of its strongest (assumed), and so many are named, strongest first.

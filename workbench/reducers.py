@@ -11,10 +11,10 @@ from typing import Any
 from discrepancy.as_told import is_direction
 from discrepancy.intervals import both_texts
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
-from discrepancy.page import amounts
 from discrepancy.written_number import written_entry
 from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
+from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault, RunFault
 from fmu_src.units import conversion
 from pages.content import Card
@@ -63,7 +63,7 @@ def headed(file: ModelFile) -> dict[str, str]:
     description = file.reducer.description
     if not file.effects:
         return {"title": file.heading, "lead": description}
-    effects = ", ".join(amounts.effect_title(name) for name in file.effects)
+    effects = ", ".join(effect_title(name) for name in file.effects)
     return {"title": f"{file.heading} with {effects}", "lead": f"The model is {file.reducer.name} with {effects}. Of the reducer: {description}"}
 
 

@@ -103,7 +103,7 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 def answer_data(answer: "Answer") -> dict[str, Any]:
     from discrepancy.held_shapes import held_text
     from discrepancy.left_sizes import left_sizes
-    from discrepancy.page.amounts import effect_title, signal_title, with_minus, with_titles
+    from discrepancy.page.amounts import signal_title, with_minus, with_titles
     from discrepancy.page.answer import headline, reason_text
     from discrepancy.page.write import page_of
     from discrepancy.verdict import added_of, instead_of
@@ -120,6 +120,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         turned_down,
         variant_text,
     )
+    from fmu_src.effect_words import effect_title
 
     content = page_of(answer)
     page = page_data(content)
@@ -144,6 +145,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         "sizes": left_sizes(answer, signal_title),
         "together": together_text(answer).replace("->", "→"), "stand_ins": others,
         "rejected": turned_down(answer),
+        "would_show": sentence(answer.would_show.sentence) if answer.would_show else "",
         "laws": [with_minus(with_titles(law.text)) for law in answer.laws],
         "p_screen": answer.diagnosis.p_screen, "seconds": answer.diagnosis.seconds, "page": page,
         "doubts": doubts, "cells": cells,

@@ -20,6 +20,7 @@ from discrepancy.problem import BASE, ORDERS, Candidate, Parameter, Record
 from discrepancy.scales import of_axis, of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
+from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault
 from fmu_src.threads import Stopped, giving_way
 from workbench.beside import Beside
@@ -95,7 +96,7 @@ class Trial:
                     continue
                 effect = about.get(candidate.name.partition(".")[0])
                 effects.append({
-                    "name": candidate.name, "title": amounts.effect_title(candidate.name), "part": candidate.part, "signals": list(candidate.signals),
+                    "name": candidate.name, "title": effect_title(candidate.name), "part": candidate.part, "signals": list(candidate.signals),
                     "law": effect.law if effect else "", "says": effect.signature if effect else candidate.title, "source": effect.source if effect else "",
                     "parameters": [slider(p, p in candidate.amplitudes) for p in candidate.parameters],
                 })  # fmt: skip
@@ -288,7 +289,7 @@ def present(model: PhysicalModel) -> list[dict[str, Any]]:
     """Effects that the model carries already: their sliders begin where they stand, and ``without`` takes them away."""
     about = every_effect()
     return [
-        {"name": name, "title": amounts.effect_title(name), "part": "", "signals": [], "law": about[name].law, "says": about[name].signature,
+        {"name": name, "title": effect_title(name), "part": "", "signals": [], "law": about[name].law, "says": about[name].signature,
          "source": about[name].source, "carried": True, "without": {p.variable.name: p.variable.start for p, _ in own if p.kind == "amplitude"},
          "parameters": [slider(parameter, p.kind == "amplitude") for p, parameter in own]}
         for name, own in own_parameters(model).items()

@@ -8,6 +8,7 @@ from rich.table import Table
 
 from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
+from cli.show.would_show import show_would_show
 from discrepancy.as_told import tables_of, told_name
 from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
@@ -188,6 +189,8 @@ def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
         out.print(f"\nlaw without a name: {law.text}")
     show_warnings(out, shortened(answer.warnings, standing))
     show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added, answer.of_chance)
+    if answer.would_show:
+        show_would_show(answer.would_show, out)
     rejected = turned_down(answer)[:6]
     if rejected:
         # Of nothing there are no rivals.
@@ -284,6 +287,8 @@ def show_proposals(run: NextRun, result: NextExperiment, out: Console) -> None:
 
 def show_asked(run: NextRun, out: Console) -> None:
     """What would show a misfit better that nothing explains, each with where, cost and what is expected of it."""
+    if run.asked and run.answer.would_show:
+        out.print("what these runs cannot show, whatever it is, and what would")
     for a in run.asked:
         out.print(f"  {a.text}")
         cost = "" if a.cost is None else f"cost {a.cost:g} {run.cost_unit}".rstrip()

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from discrepancy.repetitions import SERIES, outlying
 PROBLEM, WARNING = "problem", "warning"
 # Of a quantity from so many on one may be held out: two are left to fit.
 LEAST_CONDITIONS = 3
+FEW_LEVELS = "few levels of"
 
 
 @dataclass(frozen=True)
@@ -134,7 +136,7 @@ def levels(design: Design) -> Iterator[Finding]:
         found = len(design.levels(factor, *present))
         if found < wanted:
             yield Finding(
-                WARNING, f"few levels of {factor}",
+                WARNING, f"{FEW_LEVELS} {factor}",
                 f"{', '.join(present)}: {found or 'no'} level{'s' * (found != 1)} of {factor}: {alias}",
                 f"measure at {wanted} or more, stated as {' or '.join(keys_for(factor))}",
             )  # fmt: skip
@@ -280,6 +282,17 @@ def statements(design: Design) -> Iterator[Finding]:
             " answer to the torque, so that it explains scatter that it did not cause",
             "use the commanded speed as column, or state it in the condition",
         )  # fmt: skip
+
+
+# What of a design decides what can show, whatever the numbers are.
+LIMITING = {"one direction", "one mounting", "coupled factors", "record too short", "sampling too coarse", "means not used"}
+
+
+def shows_less(design: Design) -> Iterator[Finding]:
+    """What no run of this design shows, or tells apart, whatever the reducer does."""
+    for finding in chain(levels(design), coupled(design), angles(design), vibrations(design), zeros(design)):
+        if finding.code in LIMITING or finding.code.startswith(FEW_LEVELS):
+            yield finding
 
 
 SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, samples, copied, zeros, statements)

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from scipy.special import chdtrc, fdtrc
@@ -21,6 +22,7 @@ from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
+from discrepancy.inference.screening.visible import Visible, visible
 from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
 from discrepancy.inference.telling import Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
@@ -101,9 +103,16 @@ class Diagnostician:
         self.chosen, self.columns = only_seen(self.chosen, columns, self.seen)
         self.seen |= {c.name: c for c in self.chosen}
         self.refits.by_name |= self.seen
-        self.screening = screen(self.space, self.chosen, self.columns, fit, self.settings.seed, self.settings.draws, exclude)
+        self.screening = screen(self.space, self.chosen, self.columns, fit, self.settings.seed, self.settings.draws, exclude,
+                                self.settings.sure_level)
         self.refits.scores = {**self.refits.scores, **{s.name: s for s in self.screening.scores}}
         return self.screening
+
+    def visible(self) -> list[Visible]:
+        """How large each effect that was looked for must be to be named without more ado; of the screening, so before anything is fitted beside it."""
+        self.doing = "reckoning what would have been seen"
+        with self.space.predictions.roughly():
+            return visible(self.space, self.chosen, self.columns, {s.name: s.needed for s in self.screening.scores})
 
     @property
     def selection(self) -> Selection:
@@ -241,7 +250,8 @@ class Diagnostician:
         verdict, reason = decide(False, by_place, 0, 0, 0.0, True, self.settings)
         if verdict == NONE and computed_wrongly(self.space.base, self.settings.coverage):
             verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
-        return self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
+        found = self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
+        return replace(found, visible=self.visible()) if verdict == NONE else found
 
     def say_place(self) -> None:
         """Where the misfit is, as soon as it is known."""

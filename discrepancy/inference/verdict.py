@@ -5,6 +5,7 @@ from typing import Any
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.screening.visible import Visible
 
 NONE = "none"
 ONE = "one effect"
@@ -103,7 +104,8 @@ class Diagnosis:
 
     ``effects`` best first: the one, the members of the set (each an alternative), or all of several.
     ``alternatives`` maps each of several effects to those that could stand in its place.
-    ``base_off`` says what of the base model itself is off; ``nuisances`` what was calibrated; ``fits`` keeps the objects for further use.
+    ``base_off`` says what of the base model itself is off; ``nuisances`` what was calibrated; ``visible``, where nothing
+    is missing, from which size on effects would have been seen; ``fits`` keeps the objects for further use.
     """
 
     verdict: str
@@ -126,9 +128,10 @@ class Diagnosis:
     seconds: float
     reason: str
     fits: Fits = field(repr=False)
+    visible: list[Visible] = field(default_factory=list)
 
     def to_dict(self) -> dict[str, Any]:
-        plain = {k: v for k, v in self.__dict__.items() if k != "fits"}
+        plain = {k: v for k, v in self.__dict__.items() if k not in ("fits", "visible")}
         plain["effects"] = [e.to_dict() for e in self.effects]
         plain["base_off"] = [e.to_dict() for e in self.base_off]
         return plain

@@ -14,7 +14,7 @@ from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
 from fmu_src.arrays import Floats
-from fmu_src.effect_words import effect_words
+from fmu_src.effect_words import effect_title
 from pages.words import number
 
 TITLES = {
@@ -64,12 +64,6 @@ def axis_title(name: str, speed: Scale = AXES["speed"]) -> str:
     unit = pretty(AXES[name].unit) if name in AXES else ""
     title = "output speed" if name == "speed" and speed != AXES["speed"] else TITLES.get(name, name.replace("_", " "))
     return f"{title} [{unit}]" if unit else title
-
-
-def effect_title(name: str) -> str:
-    """``sensor_gain.input_torque`` as words."""
-    effect, _, variant = effect_words(name).partition(".")
-    return effect + (f" ({variant})" if variant else "")
 
 
 def effects_title(names: str) -> str:

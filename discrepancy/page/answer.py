@@ -7,8 +7,8 @@ from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
 from discrepancy.left_sizes import left_sizes
-from discrepancy.page import comparison, profiles, response, whys
-from discrepancy.page.amounts import effect_title, in_words, signal_title
+from discrepancy.page import comparison, profiles, response, whys, would_show
+from discrepancy.page.amounts import in_words, signal_title
 from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
@@ -16,6 +16,7 @@ from discrepancy.pin_shapes import shape_text
 from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
+from fmu_src.effect_words import effect_title
 from pages.content import Card, Page
 from pages.words import capital, number
 
@@ -38,7 +39,8 @@ def page(answer: Answer) -> Page:
             rivals(answer),
         ]
     else:
-        sections = [localised, *laws_found, rivals(answer)]
+        shown = [would_show.section(answer.would_show)] if answer.would_show else []
+        sections = [*shown, localised, *laws_found, rivals(answer)]
     sections += figures_of_answer(answer)
     if diagnosis.base_off:
         sections.insert(0, base_off(answer))
@@ -66,6 +68,8 @@ def sentence(answer: Answer) -> str:
         said += f" ({capital(reason_text(answer))}.)"
     if answer.verdict == NONE and (figure := answer.reason.partition("; ")[2]):
         said += f" {capital(figure)}."
+    if answer.would_show:
+        said += f" {capital(in_words(answer.would_show.sentence))}."
     left = wording.left_text(answer) if answer.verdict == INCOMPLETE else ""
     sizes = left_sizes(answer, signal_title)
     return said + (f" Left are: {left}." if left else "") + (f" {capital(SAMPLES)}: {sizes}." if sizes else "")

@@ -7,13 +7,13 @@ from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import NONE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
-from discrepancy.page.amounts import effect_title as words
 from discrepancy.page.amounts import with_minus
 from discrepancy.sample_errors import COUNTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, told_apart_by, turned_down, variant_text, with_base_text
+from fmu_src.effect_words import effect_title as words
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure

@@ -7,8 +7,8 @@ from discrepancy.clauses import clauses
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
 from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps, whys
-from discrepancy.page.amounts import effect_title
 from discrepancy.page.evidence import listed
+from fmu_src.effect_words import effect_title
 from pages import look
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure, short
@@ -28,10 +28,14 @@ def page(run: NextRun) -> Page:
     )
     if run.open:
         rows = [[readable(a.experiment), readable(a.why), a.like, number(a.cost), number(a.expected)] for a in run.asked]
-        lead = f"Something is left {run.answer.left_over}. Where it would show its law:"
+        lead = (
+            "Nothing is missing that these runs show. What they cannot show, whatever it is, and what would:" if run.answer.would_show
+            else f"Something is left {run.answer.left_over}. Where it would show its law:"
+        )  # fmt: skip
         head = ["measure", "because", "condition", f"cost{f' [{currency}]' if currency else ''}", "expected misfit"]
         note = "Misfit in chi-square, of two runs that are off as those of this signal are on average."
-        left = Section("open", "What nothing explains", lead, [], [Table("", head, rows, (3, 4), note)])
+        title = "What these runs cannot show" if run.answer.would_show else "What nothing explains"
+        left = Section("open", title, lead, [], [Table("", head, rows, (3, 4), note)])
         # The table that answers stands first.
         sections = [*sections, left] if run.result else [left, *sections]
     rivals = listed([effect_title(r) for r in run.rivals])

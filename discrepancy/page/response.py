@@ -7,11 +7,11 @@ import numpy as np
 
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.page import comparison, spectra
-from discrepancy.page.amounts import effect_title
 from discrepancy.page.runs import Run, axis_of, by_signal, runs_of
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
 from fmu_src.arrays import Floats
+from fmu_src.effect_words import effect_title
 from pages.content import Section
 
 WORDS = ("measured − base model", "effect", "what the effect leaves")

@@ -14,9 +14,9 @@ from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.key_figures import CLEARLY, DRAWS, KeyFigure
 from discrepancy.page import amounts
-from discrepancy.page.amounts import effect_title
 from discrepancy.verdict import Answer
 from discrepancy.wording import turned_down, with_base_text
+from fmu_src.effect_words import effect_title
 from pages.content import Why
 from pages.words import counted, number
 

@@ -73,6 +73,7 @@ export function nextPart(bag) {
       {},
       h("h2", {}, answer.untold?.length ? `What can still be asked: ${answer.untold.length > 1 ? `${answer.untold.length} questions` : "one question"}` : "Nothing is left to explain: no further experiment is asked for"),
       ...(answer.untold ?? []).map((text) => h("p", {}, text)),
+      h("p", { class: "quiet" }, "How large an effect must have been to be seen, what these runs cannot show, and what would, stands in the evidence above."),
       h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
     );
   return h("section", {}, h("h2", {}, "What to measure next"), h("div", { class: "panel" }, ask, progressOf("next")));

@@ -146,6 +146,7 @@ export function show(root, context) {
           h("p", { class: "quiet small" }, `verdict on ${answer.model}: ${answer.verdict} · ${took(answer)}`),
           h("h1", {}, answer.headline),
           answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+          answer.would_show ? h("p", { id: "would-show" }, answer.would_show) : null,
           answer.effects.map(effectOf),
           answer.together ? h("p", { class: "quiet", style: { "margin-top": "8px" } }, answer.together) : null,
           answer.base_off.map((b) => h("p", {}, `base off: ${b.text}`)),
@@ -156,7 +157,8 @@ export function show(root, context) {
         cards(answer.page.cards),
         alike(),
         h("h2", {}, "Evidence"),
-        sections(answer.page.sections),
+        // What an answer is worth that names nothing stands first, and open.
+        sections(answer.page.sections, answer.would_show ? 1 : 0),
         warnings(answer.page.warnings, (text) => asked(text, answer.cells, context)),
         command(answer.command),
       ),

@@ -6,12 +6,13 @@ columns together.  Columns are differences over a small and a typical amplitude,
 that begin with zero slope (thresholds, clearances) are seen too.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
-from scipy.special import fdtrc
+from scipy.special import fdtrc, fdtri
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.base_fit.fit import Fit
@@ -21,6 +22,7 @@ from fmu_src.arrays import Floats
 
 SMALL, TYPICAL = 0.05, 1.0
 DRAWS = 2000
+LEVEL = 0.001
 # An effect that stays below this many noise units even at the bounds of its parameters cannot be seen; what is left
 # of it in the predictions is rounding, which scaled up would fit anything.
 LEAST_REACH = 2.0
@@ -30,12 +32,13 @@ STRAIGHT = 0.98
 
 @dataclass(frozen=True)
 class Block:
-    """Columns of one candidate at one point of its shape grid, per unit of ``Parameter.scale``."""
+    """Columns of one candidate at one point of its shape grid, per unit of ``Parameter.scale``, made over amplitudes of this ``size`` (in scales)."""
 
     candidate: int
     shape: dict[str, float]
     columns: slice
     signs: tuple[int, ...]
+    size: float = SMALL
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class Columns:
 @dataclass(frozen=True)
 class Score:
     """Result of one candidate.  ``start`` are parameter values from which to refit, ``left`` the share of their change, squared, that calibrations
-    leave to first order."""
+    leave to first order; ``needed`` is the statistic from which it would be significant at the level that was asked for."""
 
     name: str
     statistic: float
@@ -59,6 +62,7 @@ class Score:
     second_start: dict[str, float] | None
     best_block: int
     left: float = 1.0
+    needed: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -76,17 +80,17 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
     made = space.threads.told("screening", lambda candidate: _blocks(space, candidate, values), candidates, lambda candidate: candidate.name)
     stacks, blocks, width = [], [], 0
     for k, own in enumerate(made):
-        for shape, block, signs in own:
+        for shape, block, signs, size in own:
             stacks.append(block)
-            blocks.append(Block(k, shape, slice(width, width + block.shape[1]), signs))
+            blocks.append(Block(k, shape, slice(width, width + block.shape[1]), signs, size))
             width += block.shape[1]
     return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
 
 
-def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) -> list[tuple[dict[str, float], Floats, tuple[int, ...]]]:
-    """(shape, columns, signs of the amplitudes) of one candidate, without those that show nothing or what another shows."""
+def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) -> list[tuple[dict[str, float], Floats, tuple[int, ...], float]]:
+    """(shape, columns, signs of the amplitudes, their size) of one candidate, without those that show nothing or what another shows."""
     which = [i for i in space.touched(candidate) if i in space.rows]
-    found: list[tuple[dict[str, float], Floats, tuple[int, ...]]] = []
+    found: list[tuple[dict[str, float], Floats, tuple[int, ...], float]] = []
     if not which:
         return found
     linear = False
@@ -104,12 +108,12 @@ def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) ->
             made[-TYPICAL] = _opposite(space, candidate, at, which, glimpses, made)
         # The small one holds to both sides; what only repeats it is left out.
         for size, block in sorted(made.items(), key=lambda one: abs(one[0])):
-            if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for _, other, _ in found):
+            if _reach(candidate, block) < LEAST_REACH or any(_same(block, other) for _, other, *_ in found):
                 continue
             # a difference over a large amplitude of a curved effect is only valid on its own side
             signs = tuple((p.sign or (int(np.sign(size)) if not linear and abs(size) == TYPICAL and len(candidate.amplitudes) == 1 else 0))
                           for p in candidate.amplitudes)
-            found.append((dict(shape), block, signs))
+            found.append((dict(shape), block, signs, size))
     return found
 
 
@@ -228,8 +232,8 @@ class _Tested:
 
 
 def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, fit: Fit, seed: int = 0, draws: int = DRAWS,
-           exclude: Sequence[str] = ()) -> Screen:
-    """Tests every candidate for what ``fit`` has left over."""
+           exclude: Sequence[str] = (), level: float = LEVEL) -> Screen:
+    """Tests every candidate for what ``fit`` has left over; ``level``, over all candidates, is that of which ``Score.needed`` speaks."""
     if not columns.blocks:
         return Screen([], ())
     rng = np.random.default_rng(seed)
@@ -272,20 +276,21 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         ranks[np.argsort(-sims, kind="stable")] = (np.arange(draws) + 0.5) / draws
         least = np.minimum(least, ranks)
     ordered = np.sort(least)
-    level = ordered[max(int(0.02 * draws) - 1, 0)]
-    effective = 0.02 / level
+    often = ordered[max(int(0.02 * draws) - 1, 0)]
+    effective = 0.02 / often
     scores = []
     for k, e in results.items():
         starts = sorted(e.starts, key=lambda s: -s[0])
         p = singles[k]
-        adjusted = min(1.0, effective * p) if p < level else float(np.mean(ordered <= p))
+        adjusted = min(1.0, effective * p) if p < often else float(np.mean(ordered <= p))
         made = [_start(candidates[k], columns.blocks[i], a) for _, i, a in starts]
         second = next((m for (t, i, _), m in zip(starts[1:], made[1:])
                        if columns.blocks[i].shape != columns.blocks[starts[0][1]].shape and t > 0.6 * starts[0][0]), None)
         own, amplitude = columns.blocks[starts[0][1]].columns, starts[0][2]
         whole = float(np.sum((columns.values[:, own] @ amplitude) ** 2))
         left = float(amplitude @ gram[own, own] @ amplitude) / whole if whole > 0.0 else 1.0
-        scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1], left))
+        needed = _needed(level / effective, np.sort(e.sup[1:]), e.width, e.dof)
+        scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1], left, needed))
     scores.sort(key=lambda s: (-s.statistic))
     return Screen(scores, columns.blocks)
 
@@ -316,6 +321,17 @@ def _tail(value: float, sims: Floats, width: int, dof: float) -> float:
         return float((draws - np.searchsorted(sims, value) + 1) / (draws + 1))
     reference = fdtrc(width, dof, bend / width)
     return float(0.01 * fdtrc(width, dof, value / width) / max(reference, 1e-300))
+
+
+def _needed(p: float, sims: Floats, width: int, dof: float) -> float:
+    """Value whose ``_tail`` is ``p``; infinite where draws give none."""
+    bend = float(sims[int(0.99 * sims.size)])
+    if p >= 0.01:
+        return float(np.quantile(sims, 1.0 - min(p, 1.0)))
+    if bend <= 0.0:
+        return math.inf
+    reference = max(fdtrc(width, dof, bend / width), 1e-300)
+    return float(width * fdtri(width, dof, 1.0 - p * reference / 0.01))
 
 
 def _start(candidate: Candidate, block: Block, amplitude: Floats) -> dict[str, float]:

@@ -26,7 +26,7 @@ def only_seen(candidates: Sequence[Candidate], columns: Columns, known: Mapping[
         own = columns.values[:, b.columns][:, kept[b.candidate]]
         signs = tuple(sign for sign, seen in zip(b.signs, kept[b.candidate]) if seen)
         stacks.append(own)
-        blocks.append(Block(b.candidate, b.shape, slice(width, width + own.shape[1]), signs))
+        blocks.append(Block(b.candidate, b.shape, slice(width, width + own.shape[1]), signs, b.size))
         width += own.shape[1]
     reduced = [replace(c, amplitudes=tuple(p for p, seen in zip(c.amplitudes, kept[k]) if seen)) for k, c in enumerate(candidates)]
     return reduced, Columns(np.hstack(stacks) if stacks else columns.values, tuple(blocks))
