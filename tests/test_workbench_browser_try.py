@@ -69,8 +69,8 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     assert titles == ["first stage error (planet)"]
     # Numbers of the reducer are called, and have the units, as on the reducer's page; what of the runs is looked at stands below the curves.
     page.locator("#taken", has_text="runs, one of each condition").wait_for()
-    page.fill("input[type=search]", "mesh.stiffness")
-    page.get_by_label("mesh.stiffness [N]", exact=True).wait_for()
+    page.fill("input[type=search]", "grease.pressure_viscosity")
+    page.get_by_label("grease.pressure_viscosity [1/GPa]", exact=True).wait_for()
     page.fill("input[type=search]", "(planet)")
     page.locator("[data-parameter=planet_runout]").wait_for()
     # The words about an effect are those of all its forms: these are listed below it.
