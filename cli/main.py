@@ -42,6 +42,7 @@ from cli.written import files_alone
 from fmu_src.checked_file import OF_THE_DISK
 from fmu_src.faults import InputFault, OldName, RunFault
 from fmu_src.progress import told_to
+from fmu_src.unit_words import unit_on_screen
 
 # In the order of the help.
 GROUPS = (
@@ -95,12 +96,9 @@ def main(arguments: list[str] | None = None) -> int:
             code = int(options.run(options))
         sys.stdout.flush()
         return code
-    except InputFault as fault:
-        print(f"rvwear {options.command}: {fault}", file=sys.stderr)
-        return 2
-    except RunFault as fault:
-        print(f"rvwear {options.command}: {fault}", file=sys.stderr)
-        return 1
+    except (InputFault, RunFault) as fault:
+        print(unit_on_screen(f"rvwear {options.command}: {fault}"), file=sys.stderr)
+        return 2 if isinstance(fault, InputFault) else 1
     except OSError as problem:
         if isinstance(problem, BrokenPipeError) and reader_is_gone():
             # The reader has seen enough (rvwear ... | head).

@@ -4,6 +4,8 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from fmu_src.unit_words import unit_on_screen
+
 if TYPE_CHECKING:
     from orchestrator.settings import Setting
     from reducers.reducer import Reducer
@@ -17,5 +19,5 @@ def told_overload(reducer: "Reducer", settings: "Sequence[Setting]", duty: "Sequ
     beyond = overload(reducer, settings, duty)
     if beyond is None:
         return {}
-    print(f"warning: {beyond}", file=sys.stderr)
+    print(unit_on_screen(f"warning: {beyond}"), file=sys.stderr)
     return {"overload": beyond.as_json()}

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from fmu_src.progress import Listener, Task, beside_text
+from fmu_src.unit_words import unit_on_screen
 
 if TYPE_CHECKING:
     from fmu_src.durations import Durations
@@ -49,7 +50,7 @@ class Remembering:
         self.durations.end(task)
 
     def say(self, text: str) -> None:
-        self.inner.say(text)
+        self.inner.say(unit_on_screen(text))
 
 
 class Lines:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from types import MappingProxyType
+from typing import Any
 
 from rich import box
 from rich.console import Console
@@ -16,17 +17,24 @@ from studies.figure_units import WHICH_ERROR, figure_unit
 WIDTH = 100
 
 
-def console(width: int = 0) -> Console:
+class Screen(Console):
+    """Whatever is printed has units as the screen has them."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        return super().render_str(unit_on_screen(text), **options)
+
+
+def console(width: int = 0) -> Screen:
     """Prints texts as they are: ``[disc=1]`` of a signal's name is no markup, ``:gear:`` no picture.
 
     ``width``: the least, where the output goes to a file too; what is to stand out is made by ``styled``.
     """
-    return Console(width=max(Console().width, width), markup=False, highlight=False, emoji=False)
+    return Screen(width=max(Console().width, width), markup=False, highlight=False, emoji=False)
 
 
 def styled(*parts: str | tuple[str, str]) -> Text:
     """A line of texts; those with a style are given with it."""
-    return Text.assemble(*parts)
+    return Text.assemble(*(unit_on_screen(part) if isinstance(part, str) else (unit_on_screen(part[0]), part[1]) for part in parts))
 
 
 # Columns of the line that a table takes beside those of each of its columns: a dense one, edges included, and one with lines, which takes EDGE more.
@@ -53,5 +61,5 @@ def figures(title: str, values: Mapping[str, object], units: Mapping[str, str] =
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
         unit = units.get(name) or figure_unit(name)
         which = f"\n  {WHICH_ERROR[name]}" if name in WHICH_ERROR else ""
-        table.add_row(f"{name}{which}", text, "" if unit == "1" else unit_on_screen(unit))
+        table.add_row(f"{name}{which}", text, "" if unit == "1" else unit)
     console().print(table)

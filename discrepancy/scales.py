@@ -10,6 +10,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.intervals import both_texts, digits_of, estimate_text, relied_on
 from discrepancy.problem import is_direction
+from fmu_src.display import display_unit
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable
 
@@ -132,6 +133,13 @@ def parameter_texts(value: float, interval: tuple[float, float], unit: str, dire
 def of_variable(variable: Variable, size: float) -> Scale:
     """Of an effect's parameter, or another variable, of about ``size`` (SI)."""
     return of_parameter(size, variable.unit, is_direction(variable.unit, variable.minimum, variable.maximum))
+
+
+def of_number(variable: Variable) -> Scale:
+    """Of a number of the reducer, whatever its size: as its page, its file and the list of all variables have it."""
+    unit = display_unit(variable) or variable.unit
+    factor, offset = conversion(variable.unit, unit)
+    return Scale(factor, unit, offset)
 
 
 def of_estimate(entry: Mapping[str, Any]) -> Scale:

@@ -4,6 +4,7 @@ The command line listens (``cli.progress``).  What computes says ``with task("eq
 turning`` and ``turning.advance()`` at each step, and need not know who looks.
 """
 
+import math
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -14,6 +15,8 @@ from typing import Protocol
 SOON = 3.0
 # Steps differ in cost: the pace of less than this share of them, in less than so many seconds, tells nothing of the others.
 FEW, LONG = 0.1, 60.0
+# "About" so many seconds is as much again as this share, and a second, at most.
+ABOUT = 0.25
 
 
 @dataclass(eq=False)
@@ -40,6 +43,8 @@ class Task:
     whole: bool = False
     # What is said of what follows as long as nobody knows how long it takes.
     then: str = ""
+    # Seconds from its beginning at which it ends, as was told so far: never put off.
+    told: float = math.inf
 
     def __post_init__(self) -> None:
         self.name = self.what
@@ -47,18 +52,27 @@ class Task:
     def advance(self, steps: int = 1) -> None:
         self.done += steps
 
-    def foretell(self, low: float, high: float) -> None:
-        """From now on it takes between so many seconds."""
-        self.foretold = self.passed + low, self.passed + high
+    def foretell(self, low: float, high: float, more: bool = False) -> None:
+        """From now on it takes between so many seconds; an end that was told is put off only where ``more`` is to be done than was known then."""
+        low, high = self.passed + low, self.passed + high
+        if self.foretold and not more:
+            low, high = min(low, self.foretold[1]), min(high, self.foretold[1])
+        self.foretold = low, high
 
     @property
     def span(self) -> str:
         """What is left in words, as it was foretold; empty where it was not, has turned out to be wrong, or agrees with the last time, which says it closer."""
-        if self.foretold is None or self.passed > self.foretold[1]:
+        if self.foretold is None or self.overdue:
             return ""
-        if self.before is not None and max(self.passed, self.foretold[0]) < self.before < self.foretold[1]:
-            return ""
-        return between(*(max(0.0, end - self.passed) for end in self.foretold))
+        text = between(*(max(0.0, end - self.passed) for end in self.foretold))
+        if self.before is None or not self.foretold[0] < self.before < self.foretold[1]:
+            return text
+        return "" if self.before > self.passed else f"longer than the last time, {text}"
+
+    @property
+    def overdue(self) -> bool:
+        """Whether it takes longer than was told."""
+        return self.passed > (self.told if self.foretold is None else self.foretold[1])
 
     @property
     def passed(self) -> float:
@@ -67,7 +81,10 @@ class Task:
 
     @property
     def left(self) -> float | None:
-        """Seconds that it will still take, at the pace so far and, the fewer steps are done, as the last time; None if nobody knows."""
+        """Seconds that it will still take, at the pace so far and, the fewer steps are done, as the last time; None if nobody knows.
+
+        A guess of this moment, which rises while a dear step is taken: what is told of it is ``tell_left``.
+        """
         if self.total and self.done:
             done = self.done / self.total
             at_pace = self.passed * (1.0 - done) / done
@@ -76,8 +93,21 @@ class Task:
             return at_pace if done >= FEW or self.passed > LONG else None
         if self.about is not None:
             return max(0.0, self.about - self.passed)
+        if self.foretold is not None and self.overdue:
+            return None
         # What takes longer than the last time tells nothing of when it ends.
         return self.before - self.passed if self.before is not None and self.before > self.passed else None
+
+    def tell_left(self) -> str:
+        """``about 4 s``, and never later than was told before: ``at least`` as much where it takes longer, nothing once that is over or where nobody knows."""
+        left, passed = self.left, self.passed
+        if left is None:
+            return ""
+        self.told = min(self.told, passed + left)
+        still = self.told - passed
+        if still <= 0.0 < left:
+            return ""
+        return f"{'about' if left <= (1.0 + ABOUT) * still + 1.0 else 'at least'} {duration(still)}"
 
     def sentence(self) -> str:
         """``equilibria: 30 of 72, about 4 s left``."""
@@ -86,10 +116,11 @@ class Task:
             return f"{self.what}{count}"
         if self.span:
             return f"{self.what}{count}, {self.span} left"
-        if self.left is None:
-            return f"{self.what}{count}" + (f", for {duration(self.passed)} now" if self.passed > SOON else "")
+        if not (left := self.tell_left()):
+            longer = ", longer than foretold" if self.overdue else ""
+            return f"{self.what}{count}" + (f", for {duration(self.passed)} now{longer}" if self.passed > SOON else "")
         guessed = f" if it takes as long as {self.like}" if self.like and not self.done and self.about is None else ""
-        return f"{self.what}{count}, about {duration(self.left)} left{guessed}"
+        return f"{self.what}{count}, {left} left{guessed}"
 
 
 def duration(seconds: float) -> str:
@@ -110,14 +141,15 @@ def left_in_all(outer: Sequence[Task]) -> str:
     """What is left of the whole, of tasks that others are part of, in words; empty where that is not known."""
     if foretold := next((task.span for task in outer if task.span), ""):
         return foretold
-    left = next((task.left for task in outer if task.whole), None)
-    return "" if left is None else f"about {duration(left)}"
+    return next((task.tell_left() for task in outer if task.whole), "")
 
 
 def beside_text(outer: Sequence[Task]) -> str:
     """Behind the sentence of a part: what is left of the whole, or what follows where that is not known."""
     if whole := left_in_all(outer):
         return f"; in all {whole} left"
+    if any(task.foretold and task.overdue for task in outer):
+        return "; the whole takes longer than foretold"
     then = next((task.then for task in outer if task.then), "")
     return f"; {then}" if then else ""
 

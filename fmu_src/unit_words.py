@@ -93,6 +93,10 @@ def unit_of(text: str) -> tuple[str, str] | None:
     return KNOWN.get(word) or (LOWER.get(word.lower()) if len(word) >= LEAST_LOWER else None)
 
 
-def unit_on_screen(unit: str) -> str:
-    """A unit as a sentence or a table on the screen has it; what is typed and what files hold keep their point: N.m."""
-    return unit.replace("N.m", "N m")
+# A torque's unit in a text of ours; in a name (50N.m), a head ([N.m]) or quotes it stands as in the file, or as it is typed.
+TORQUE_UNIT = re.compile(r"(?<![\w.\[\"'`])((?:k|m|da)?N)[.·]([cm]?m)(?:[.·](arcmin|s)\b)?(?![\w\]\"'`])")
+
+
+def unit_on_screen(text: str) -> str:
+    """A unit, or a text with units, as screen and pages have it; what is typed and what files hold keep their point: N.m."""
+    return TORQUE_UNIT.sub(lambda m: " ".join(filter(None, m.groups())), text)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from pages.look import Trace
-from pages.words import micro
+from pages.words import units_in_print
 
 # A pixel of the screen's strokes and signs, in points of print.
 STROKE, SIGN = 0.6, 0.55
@@ -26,7 +26,7 @@ def spelled(text: Any) -> str:
     """A text of the page without its marks."""
     plain = re.sub(r"<br\s*/?>", "\n", str(text))
     # A dollar sign would begin mathematics.
-    return micro(unescape(re.sub(r"<[^>]+>", "", plain))).replace("$", r"\$")
+    return units_in_print(unescape(re.sub(r"<[^>]+>", "", plain))).replace("$", r"\$")
 
 
 def colour_of(text: Any) -> Any:

@@ -15,7 +15,7 @@ from plotly.offline import get_plotlyjs
 from fmu_src.checked_file import write_text
 from pages.content import Choosable, Page
 from pages.look import Figure, Trace
-from pages.words import in_print, micro
+from pages.words import in_print, units_in_print
 
 HERE = Path(__file__).parent
 
@@ -76,4 +76,4 @@ def described(figure: Figure) -> dict[str, Any]:
 
 def named(traces: list[Trace]) -> list[Trace]:
     """With names and words under the pointer in print; numbers, of which there may be many, and words of axes stay."""
-    return [{key: micro(value) if type(value) is str else value for key, value in trace.items()} for trace in traces]
+    return [{key: units_in_print(value) if type(value) is str else value for key, value in trace.items()} for trace in traces]

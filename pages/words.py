@@ -4,6 +4,8 @@ import math
 import re
 from typing import Any
 
+from fmu_src.unit_words import unit_on_screen
+
 
 def hour_text(hours: float) -> str:
     """``10,000 h``"""
@@ -23,9 +25,9 @@ def number(value: float | None, digits: int = 3) -> str:
     return text.replace("-", "−")
 
 
-def micro(text: str) -> str:
-    """A text of a command as a page has it: with the sign of a micrometre, alone or in a unit (``um/kN``)."""
-    return re.sub(r"(?<![\w.])um(?![\w.])", "µm", text)
+def units_in_print(text: str) -> str:
+    """A text of a command as a page has it: with the sign of a micrometre, alone or in a unit (``um/kN``), and torques in N m as on the screen."""
+    return re.sub(r"(?<![\w.])um(?![\w.])", "µm", unit_on_screen(text))
 
 
 def in_print(value: Any) -> Any:
@@ -35,7 +37,7 @@ def in_print(value: Any) -> Any:
     if isinstance(value, list):
         return [in_print(part) for part in value]
     # Markup, which templates make, stays as it is.
-    return micro(value) if type(value) is str else value
+    return units_in_print(value) if type(value) is str else value
 
 
 def capital(text: str) -> str:
@@ -46,3 +48,9 @@ def capital(text: str) -> str:
 def counted(count: int, noun: str) -> str:
     """``1 run``, ``2 runs``"""
     return f"{count} {noun}" + ("" if count == 1 else "s")
+
+
+def ordinal(n: int) -> str:
+    """``2nd``, ``11th``"""
+    ending = "th" if 10 <= n % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th")
+    return f"{n}{ending}"

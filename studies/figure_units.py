@@ -18,7 +18,7 @@ WHICH_ERROR = {"transmission_error_pp_arcsec": "second stage alone, against the 
 # The third is what a life tells: of errors that are fixed to the ring one crank turn shows what lies where the output then stands.
 OVER_TURN = "transmission_error_over_turn_pp_arcsec"
 WINDOW = "over one crank turn, where the output then stands"
-WHAT_IS_OVER_TURN = "TE p-p (transmission error): over one turn of the output; force, teeth, lag and stiffness: " + WINDOW
+WHAT_IS_OVER_TURN = "transmission error, peak to peak: over one turn of the output; force, teeth, lag and stiffness: " + WINDOW
 OF_LIVES = {name: f"transmission error peak to peak, {which}, {WINDOW}" for name, which in WHICH_ERROR.items()} | {
     OVER_TURN: "transmission error peak to peak, whole, against the input, over one turn of the output; between first and last hour as the jumps show it",
     "lost_motion_arcmin": HELD_IN_LIVES,

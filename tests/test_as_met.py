@@ -14,7 +14,7 @@ from pages import content
 from pages.content import Card, Page, Section
 from pages.look import Figure, axis, layout
 from pages.render import rendered_sections
-from pages.words import in_print, micro
+from pages.words import in_print, units_in_print
 from reducers.checking import check
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
@@ -52,7 +52,7 @@ def test_a_completed_file_and_its_check_call_an_hour_the_same(tmp_path, capsys):
 
 def test_pages_have_the_sign_of_a_micrometre_wherever_a_command_writes_um():
     """``um`` stood in the Reducer view and ``µm`` in all others."""
-    assert micro("1.5 to 5 um, 9 um/kN (N/(mm um)); 60um of a_um.um um.csv [um]") == "1.5 to 5 µm, 9 µm/kN (N/(mm µm)); 60um of a_um.um um.csv [µm]"
+    assert units_in_print("1.5 to 5 um, 9 um/kN (N/(mm um)); 60um of a_um.um um.csv [um]") == "1.5 to 5 µm, 9 µm/kN (N/(mm µm)); 60um of a_um.um um.csv [µm]"
     assert in_print({"unit": "um", "rows": [["um", 3]]}) == {"unit": "µm", "rows": [["µm", 3]]}
     figure = Figure("f", "of 5 um", "caption", [{"type": "scatter", "name": "5 um oval", "x": [1], "y": [2]}], layout(yaxis=axis("depth [um]")))
     page = rendered_sections(Page("kind", "t", "c", "5 um off", [Card("a", "3", unit="um")], [Section("s", "S", "l um", [figure], [content.Table("", ["a"], [["um"]])])], ["9 um"]))

@@ -185,8 +185,8 @@ def test_runs_of_one_condition_that_differ_in_a_column_alone_are_doubted(tmp_pat
     with_columns(tmp_path, te_1=50, te_2=50, te_3=150)
     assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
-    assert "load_torque 50 N.m and 150 N.m by its column" in shown
-    assert "load_torque stands in columns alone and is 50 N.m in te_1.csv, te_2.csv, 150 N.m in te_3.csv: these runs" in shown and "(50Nm)" in shown
+    assert "load_torque 50 N m and 150 N m by its column" in shown
+    assert "load_torque stands in columns alone and is 50 N m in te_1.csv, te_2.csv, 150 N m in te_3.csv: these runs" in shown and "(50Nm)" in shown
 
 
 def test_what_columns_say_alike_is_no_doubt(tmp_path):

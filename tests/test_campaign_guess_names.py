@@ -81,7 +81,7 @@ def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, caps
     assert command.count("--names") == 1 and "te_X{load_torque:N.m}_{replicate}" in command and not any("load_torque=" in word for word in command)
     assert main(command[1:]) == 0
     out = capsys.readouterr().out
-    assert "load_torque 167 N.m" in out and "load_torque 50 N.m" in out
+    assert "load_torque 167 N m" in out and "load_torque 50 N m" in out
     assert shlex.split(out.strip().splitlines()[-1]) == ["rvwear", "compare", "RV20E-121", str(folder)]
 
 

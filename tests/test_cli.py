@@ -67,7 +67,7 @@ def test_a_torque_that_no_reducer_takes_is_answered_and_doubted(capsys, argument
     said = capsys.readouterr()
     beyond = json.loads(said.out)["overload"]
     assert (beyond["torque_Nm"], beyond["rated_torque_Nm"], beyond["factor"]) == (1670.0, 167.0, pytest.approx(10.0))
-    assert said.err.count("warning: ") == 1 and "1670 N.m is 10 times the rated torque, 167 N.m" in said.err and "contact pressures" in said.err
+    assert said.err.count("warning: ") == 1 and "1670 N m is 10 times the rated torque, 167 N m" in said.err and "contact pressures" in said.err
     assert main([*arguments, "--torque", "800", "--json"]) == 0
     said = capsys.readouterr()
     assert "overload" not in json.loads(said.out) and "rated" not in said.err

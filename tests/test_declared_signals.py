@@ -80,14 +80,14 @@ def test_the_check_of_an_own_effect_doubts_signals_that_it_does_not_change(tmp_p
     # It can be meant so: a doubt, no fault.
     assert main(["effects", "--check", str(file)]) == 0
     said = capsys.readouterr().out
-    assert "nothing wrong" in said and "doubtful: signals lack input_torque (by 0.0995 N.m, speed 10 %; a usual bench's noise is 0.02 N.m)" in said
+    assert "nothing wrong" in said and "doubtful: signals lack input_torque (by 0.0995 N m, speed 10 %; a usual bench's noise is 0.02 N m)" in said
     assert "doubtful: none of its signals is changed by more than noise" in said and "most hysteresis (by nothing)" in said
     # What explains it has the same signals, though its figures are those of another reducer at other conditions.
     env = os.environ | {"RVWEAR_EFFECTS": str(file.parents[1])}
     shown = subprocess.run([sys.executable, "-m", "cli", "effects", "lip"], cwd=ROOT, env=env, capture_output=True, text=True, check=True).stdout
     assert "on RV20E-121, where it changes most" in shown and "Figures are those of RV20E-121-rigid" in shown
     rows = {line.split()[0]: line.split()[1:] for line in shown.partition("by signal")[2].splitlines() if line.startswith(" ") and line.split()}
-    assert rows["input_torque"] == ["0.0995", "N.m", "speed", "10", "%", "0.02", "N.m", "5"] and rows["hysteresis"] == ["yes", "nothing"]
+    assert rows["input_torque"] == ["0.0995", "N", "m", "speed", "10", "%", "0.02", "N", "m", "5"] and rows["hysteresis"] == ["yes", "nothing"]
     assert main(["effects", "--check", str(file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["findings"] == {str(file): []}

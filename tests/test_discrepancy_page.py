@@ -370,7 +370,7 @@ def test_next_experiment(answer, tmp_path):
                  Proposal("input_torque at 900 rpm, 20 degC", {}, 100.0, 2.0, 0.001, {"a ~ b": 0.001, "a ~ c": 4.0})]  # fmt: skip
     found = NextExperiment(True, "input_torque at 500 rpm, 20 degC separates all rivals", proposals, {"input_torque at 500 rpm, 20 degC": 0.25})
     page = written(NextRun(answer, found, ["a", "b", "c"], found.verdict), tmp_path)
-    assert "1 of 2 possible experiments" in page and "0.25 N·m" in page and "&lt; 0.01" in page
+    assert "1 of 2 possible experiments" in page and "0.25 N m" in page and "&lt; 0.01" in page
     cost, least = figure(page, "ranking")["data"]
     assert cost["x"] == [300, 100] and least["x"] == [12.5, 0]
     nothing = written(NextRun(answer, None, ["clearance"], "nothing is left to separate: clearance stands alone"), tmp_path)

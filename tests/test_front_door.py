@@ -123,7 +123,7 @@ def test_a_torque_that_no_reducer_takes_is_warned_of_where_it_was_asked_for():
 
 def test_a_plotly_picture():
     found = rvwear.figure(rvwear.hysteresis(steps=4, angles=1), plotly=True)
-    assert found.data[0].type == "scatter" and found.layout.xaxis.title.text == "torque [N·m]"
+    assert found.data[0].type == "scatter" and found.layout.xaxis.title.text == "torque [N m]"
 
 
 def test_a_model_file_stands_for_a_reducer_with_all_that_it_adds(tmp_path):

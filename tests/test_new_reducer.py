@@ -88,7 +88,7 @@ def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_
     assert "torsional stiffness 392 N m/arcmin, disc.equidistant_modification 3.253 um; of the file's" in said and note not in said
     assert main([*catalogue, "--known", "carrier.compliance=2e-7rad/(N.m)", "--known", "mesh.friction=0.05"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "carrier.compliance 0.000687549 arcmin/(N.m), mesh.friction 0.05; of" in said and note in said
+    assert "carrier.compliance 0.000687549 arcmin/(N m), mesh.friction 0.05; of" in said and note in said
 
 
 def test_a_lost_motion_that_no_gap_makes_is_made_by_smaller_clearances_within_their_ranges(tmp_path, capsys):
@@ -508,10 +508,10 @@ def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monk
 
 
 @pytest.mark.parametrize(("typed", "said"), [
-    ("210Nm/deg", "--stiffness 210Nm/deg is 3.5 N.m/arcmin: it asks for crank.support_compliance = 5"), ("210Nm/deg", "; did you mean 210 N.m/arcmin?"),
-    ("210Nm/deg", "more than 5 times beyond what rules give, 2.57 um/kN to 9.31 um/kN, which make 174 to 493 N.m/arcmin"),
-    ("3.5", "--stiffness 3.5 N.m/arcmin: it asks for "), ("3.5", "N.m/arcmin; give --diameter if the catalogue has it, or look at its unit"),
-    ("12600", "which is softer; did you mean 12600 N.m/deg?"),
+    ("210Nm/deg", "--stiffness 210Nm/deg is 3.5 N m/arcmin: it asks for crank.support_compliance = 5"), ("210Nm/deg", "; did you mean 210 N m/arcmin?"),
+    ("210Nm/deg", "more than 5 times beyond what rules give, 2.57 um/kN to 9.31 um/kN, which make 174 to 493 N m/arcmin"),
+    ("3.5", "--stiffness 3.5 N m/arcmin: it asks for "), ("3.5", "N m/arcmin; give --diameter if the catalogue has it, or look at its unit"),
+    ("12600", "which is softer; did you mean 12600 N m/deg?"),
 ])  # fmt: skip
 def test_a_stiffness_far_beyond_the_rules_is_refused_with_the_unit_that_was_meant(tmp_path, capsys, typed, said):
     """A file of supports sixty times as soft as any was written, with one doubt among its lines."""
@@ -525,7 +525,7 @@ def test_compliances_stand_on_screens_in_the_units_that_people_read(tmp_path, ca
     catalogue = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--output", str(tmp_path / "mine.toml"), "--overwrite"]
     assert main([*catalogue, "--known", "first_stage.compliance=10um/kN", "--against", "RV20E-121"]) == 0
     said = capsys.readouterr().out
-    assert re.search(r"carrier\.compliance +4\.719e-05 +arcmin/\(N\.m\) +1\.03e-05 to 0\.000217 ", said) and re.search(r"support_compliance +[\d.]+ +um/kN", said)
+    assert re.search(r"carrier\.compliance +4\.719e-05 +arcmin/\(N m\) +1\.03e-05 to 0\.000217 ", said) and re.search(r"support_compliance +[\d.]+ +um/kN", said)
     completion = complete(Given(129, 40, 1568.0, cranks=3, known=known_numbers(["first_stage.compliance=10um/kN", "carrier.compliance=2e-7rad/(N.m)"])))
     (table, dials) = page_of(completion, reducer_at(completion, {}), []).sections[-1].tables
     shown = {row["name"]: row for row in rows_of(completion)}

@@ -115,7 +115,7 @@ def test_after_incomplete_or_unknown_something_is_left(verdict, members, capsys)
     assert known.asked[0].expected == pytest.approx(30.0) and known.as_json()["asked"][0]["cost"] == 200.0
     show_asked(known, console(100))
     told = " ".join(capsys.readouterr().out.split())
-    assert all(text in told for text in ("mass_loss[part=disc] at 94 N.m", "all else as test; cost 200 EUR; expected misfit 30 in chi-square"))
+    assert all(text in told for text in ("mass_loss[part=disc] at 94 N m", "all else as test; cost 200 EUR; expected misfit 30 in chi-square"))
     assert proposal_for(answer_of(verdict, members), CAMPAIGN).open
 
 

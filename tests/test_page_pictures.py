@@ -72,7 +72,7 @@ def test_a_title_below_a_plot_ends_before_the_edge_of_the_picture():
     from cli.altered import note_of, noted_figure
     from pages.charts import Curve, chart
     from pages.paper import drawn
-    from pages.words import micro
+    from pages.words import units_in_print
 
     note = note_of(["bearing.clearance=10um (RV20E-121 had 2.5 um)"])
     for y_title in ("F / F max", "force along the pressure angle and beyond it [kN]"):
@@ -83,7 +83,7 @@ def test_a_title_below_a_plot_ends_before_the_edge_of_the_picture():
             label = picture.axes[0].xaxis.label
             box, words = label.get_window_extent(), label.get_text().replace("\n", " ")
             assert picture.bbox.x0 <= box.x0 and box.x1 <= picture.bbox.x1 and picture.bbox.y0 <= box.y0, (width, label.get_text())
-            assert words == f"sin {micro(note)}"
+            assert words == f"sin {units_in_print(note)}"
     # Where there is room, nothing is folded that was not.
     assert label.get_text().count("\n") == 1
 

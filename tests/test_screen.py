@@ -182,7 +182,7 @@ def test_error_below_the_noise_is_not_many_times_the_noise(capsys):
     assert "times the noise" not in said and "6.88 arcmin, noise 275 arcmin" in said
     assert not is_shown(answer, answer.effects[0]) and tone(answer) == "fair"
     shows.show_answer(answer)
-    assert "0.0006875 arcmin/(N.m)" in capsys.readouterr().out
+    assert "0.0006875 arcmin/(N m)" in capsys.readouterr().out
 
 
 def test_every_view_begins_with_the_number_of_the_comparison_by_its_name(capsys):

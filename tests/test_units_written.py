@@ -5,11 +5,14 @@ import math
 import pytest
 
 from cli.main import main
+from cli.screen import console, dense, styled
 from discrepancy.campaign.amount import amount
+from discrepancy.page.amounts import pretty
 from fmu_src.faults import InputFault
-from fmu_src.unit_words import COUNTS, WRITTEN, plain
+from fmu_src.unit_words import COUNTS, WRITTEN, plain, unit_on_screen
 from fmu_src.units import UnitError, by_pint, conversion, parse
 from orchestrator.settings import parse_value
+from pages.words import units_in_print
 from reducers.completion.command import typed
 from reducers.reducer import load_reducer
 
@@ -82,3 +85,30 @@ def test_what_people_write_for_another_unit_is_none_of_the_models_own():
 def test_a_frequency_counts_turns(source, target, factor):
     """25 Hz of a shaft were 239 rpm."""
     assert conversion(source, target) == (pytest.approx(factor, rel=1e-12), 0.0)
+
+
+@pytest.mark.parametrize(("text", "shown"), [
+    ("N.m", "N m"), ("arcmin/(N.m)", "arcmin/(N m)"), ("N.m/arcmin", "N m/arcmin"), ("N.m.arcmin", "N m arcmin"), ("0.05 N.m of 3 kN.m.", "0.05 N m of 3 kN m."),
+    ("12 N·m", "12 N m"), ("80 N.mm", "80 N mm"),
+    # Names of conditions, heads of columns and what is to be typed stand as they are.
+    ("900rpm_50N.m", "900rpm_50N.m"), ("column 'torque [N.m]'", "column 'torque [N.m]'"), ("--set output.load_torque=150N.m", "--set output.load_torque=150N.m"),
+    ('unit = "N.m"', 'unit = "N.m"'), ('load_torque = "150 N.m"', 'load_torque = "150 N.m"'), ("T_N.m", "T_N.m"),
+])  # fmt: skip
+def test_a_torque_has_one_unit_on_screen(text, shown):
+    assert unit_on_screen(text) == shown == units_in_print(text)
+
+
+def test_screen_page_and_faults_have_one_unit_of_a_torque(tmp_path, capsys):
+    """N.m, N m and N·m stood beside each other: in tables of the screen, in faults, on pages."""
+    assert pretty("N.m/arcmin") == "N m/arcmin" and pretty("rad/(N.m)") == "rad/(N m)" and pretty("g.mm") == "g mm"
+    table = dense("torque 3 N.m")
+    table.add_column("unit")
+    table.add_row("N.m")
+    console().print(table)
+    console().print("12 N.m", styled("5 N.m", ("7 N.m", "bold")))
+    assert main(["reducer", "new", "--ratio", "121", "--rated", "412", "--stiffness", "0.001", "--output", str(tmp_path / "new.toml")]) == 2
+    assert main(["reducer", "check", "RV20E-121"]) == 0
+    printed = capsys.readouterr()
+    assert "12 N m 5 N m7 N m" in printed.out and "N m" in printed.err
+    for text in (printed.out, printed.err):
+        assert not any(written in text for written in ("N.m", "N·m"))

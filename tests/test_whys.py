@@ -28,7 +28,7 @@ def test_a_page_asks_beside_cards_and_rows_without_script():
 def test_a_key_figure_says_its_noise_and_how_far_it_is_off():
     why = whys.of_key_figure(FIGURE)
     assert "3 repetitions" in why.data and "20 degC" in why.data
-    assert "5.82 N·m/arcmin apart, 5.00 times 1.16 N·m/arcmin" in why.margin
+    assert "5.82 N m/arcmin apart, 5.00 times 1.16 N m/arcmin" in why.margin
     assert "draws" in whys.of_key_figure(replace(FIGURE, repeated=False)).data
 
 

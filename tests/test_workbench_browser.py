@@ -94,7 +94,7 @@ def test_on_a_telephone_how_far_a_figure_is_off_has_its_name(bench):
     page = on_a_telephone(bench)
     heads = page.evaluate("""async () => {
       const { keyFigures } = await import('./static/look_parts.js');
-      const figure = { signal: 's', title: 'hysteresis', condition: 'c', name: 'torsional stiffness', unit: 'N·m/arcmin', measured: '44.661', noise: '0.054', model: '49.976', off: 97.9, runs: 2, repeated: true, why: null };
+      const figure = { signal: 's', title: 'hysteresis', condition: 'c', name: 'torsional stiffness', unit: 'N m/arcmin', measured: '44.661', noise: '0.054', model: '49.976', off: 97.9, runs: 2, repeated: true, why: null };
       const result = { figures: [figure], calibrated: [] };
       document.getElementById('view').replaceChildren(keyFigures({ result, all: true, text: '', matches: () => true, search: null, showAll: null }));
       return [...document.querySelectorAll('table.stack td')].slice(3, 7).map((cell) => getComputedStyle(cell, '::before').content);

@@ -281,7 +281,7 @@ def test_names_that_differ_by_a_number_are_one_table_and_what_it_says_is_chosen(
     assert places.locator("option").all_inner_texts() == ["names alone", "input locked at [°]"] and "locked" not in loads.inner_text()
     places.select_option(label="input locked at [°]")
     page.get_by_text("The 2 numbers in these names").wait_for(state="detached")
-    page.get_by_label("numbers in the names").select_option(label="load torque [N·m]")
+    page.get_by_label("numbers in the names").select_option(label="load torque [N m]")
     page.get_by_text("The 3 numbers in these names").wait_for(state="detached")
     assert page.get_by_label("pattern of the names").first.input_value() == "Drehfehler_{load}_{speed}rpm_{temperature}C_{replicate}"
     # A loop has no load and no speed, and where an input was locked is nothing of one that runs.
@@ -309,7 +309,7 @@ def test_units_typed_in_cells_are_read_or_told_at_once(bench, tmp_path):
     beside = "e => e.parentElement.querySelector('span').textContent"
     assert load.input_value() == "1000 lbf.inch" and load.evaluate(beside) == ""
     load.fill("113")
-    assert load.evaluate(beside) == "N.m"
+    assert load.evaluate(beside) == "N m"
     load.fill("1001 in-lbf")
     load.press("Tab")
     while 'load_torque = "1001 in-lbf"' not in (page.locator("pre.file").text_content() or ""):

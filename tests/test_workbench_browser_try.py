@@ -67,6 +67,12 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     page.locator("[data-parameter=planet_runout]").wait_for()
     titles = page.locator("ul.list > li > details[open] > summary").all_inner_texts()
     assert titles == ["first stage error (planet)"]
+    # Numbers of the reducer are called, and have the units, as on the reducer's page; what of the runs is looked at stands below the curves.
+    page.locator("#taken", has_text="runs, one of each condition").wait_for()
+    page.fill("input[type=search]", "grease.pressure_viscosity")
+    page.get_by_label("grease.pressure_viscosity [1/GPa]", exact=True).wait_for()
+    page.fill("input[type=search]", "(planet)")
+    page.locator("[data-parameter=planet_runout]").wait_for()
     # The words about an effect are those of all its forms: these are listed below it.
     listed = page.locator("ul.list > li > details > summary").all_inner_texts()
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
@@ -101,7 +107,7 @@ def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_show
     bench.page.goto(bench.address)
     told = bench.page.evaluate("""async () => {
       const { entry } = await import('./static/try_effects.js'), values = {};
-      const p = { name: 'disc_hole_shift_1', unit: 'µm', factor: 1e6, offset: 0, off: 0, low: -15, high: 15, bounds: [-30, 30], amplitude: true, description: '' };
+      const p = { name: 'disc_hole_shift_1', called: 'disc hole shift 1', unit: 'µm', factor: 1e6, offset: 0, off: 0, low: -15, high: 15, bounds: [-30, 30], amplitude: true, description: '' };
       const item = entry({ title: 'holes', parameters: [p] }, { values, open: true, drawList: () => {}, follow: () => {} });
       const [range, field] = item.querySelectorAll('input'), said = [];
       const give = (input, text, event) => {
@@ -124,8 +130,8 @@ def test_a_number_under_try_beyond_its_bounds_says_which_it_has_and_what_is_show
 def test_a_move_under_try_does_not_wait_for_the_exact_curve(bench):
     """It was sent only once that had come; what comes then is of before and is not drawn."""
     page, asked, held = bench.page, [], []
-    slider = {"name": "gap", "unit": "um", "factor": 1e6, "offset": 0, "off": 0, "low": 0, "high": 9, "bounds": [0, 9], "typical": 1, "amplitude": True,
-              "all_round": False, "counts": False, "description": "", "of": ""}  # fmt: skip
+    slider = {"name": "gap", "called": "gap", "unit": "um", "factor": 1e6, "offset": 0, "off": 0, "low": 0, "high": 9, "bounds": [0, 9], "typical": 1,
+              "amplitude": True, "all_round": False, "counts": False, "description": "", "of": ""}  # fmt: skip
     effect = {"name": "clearance", "title": "clearance", "part": "", "signals": [], "law": "", "says": "", "source": "", "parameters": [slider]}
     run = {"run": "r", "signal": "transmission_error", "title": "t", "condition": "c", "replicate": 1, "held_out": False, "samples": 1, "axis": "angle"}
     words = {"unit": "arcsec", "axis": {"name": "angle", "title": "angle"}, "loop": False, "stems": False, "title": "t", "condition": "c", "free": False,

@@ -79,6 +79,41 @@ def test_of_many_samples_one_turn_is_tried():
     assert np.allclose(few.values, np.sin(78 * few.axes["angle"])) and thinned(few) is few
 
 
+def test_what_is_left_out_of_what_is_tried_is_said():
+    """One of two repetitions and every other sample stood there as if they were all."""
+    from discrepancy.problem import Record
+    from workbench.thinned import taken_words
+
+    def run(name, count, condition="c", turns=1.0):
+        return Record(name, "transmission_error", "rad", condition, 1, np.zeros(count), {"angle": np.linspace(0.0, turns * 2.0 * np.pi, count)}, {})
+
+    whole, long = run("a", 900), run("b", 2000, turns=0.9)
+    assert taken_words(whole, [whole, run("d", 900, "d")]) == ""
+    assert taken_words(long, [whole, long, run("d", 900, "d")]) == "2 of 3 runs, one of each condition; of this one every 2nd sample (1,000 of 2,000 samples)"
+    assert taken_words(run("t", 3001, turns=3.0), [whole]) == "of this one the first turn (1,000 of 3,001 samples)"
+    assert taken_words(run("t", 9001, turns=3.0), [whole]) == "of this one the first turn, every 3rd sample (1,001 of 9,001 samples)"
+
+
+def test_numbers_of_the_reducer_are_called_as_on_its_page_and_have_its_units(tmp_path):
+    """carrier mass stood there in mg, and crank.support_compliance as crank_seat_compliance in nm/N."""
+    from discrepancy.page.amounts import pretty
+    from discrepancy.prediction.base_numbers import base_numbers
+    from reducers.reducer import load_reducer
+    from workbench.reducers import numbers
+    from workbench.trying import base_number
+
+    reducer = load_reducer("RV20E-121")
+    on_page = {row["name"]: row for row in numbers(reducer)}
+    told = [base_number(candidate, (reducer.plant, reducer.wear)) for candidate in base_numbers(reducer, ())]
+    sliders = {one["title"]: one["parameters"][0] for one in told}
+    assert len(sliders) == len(told) and sliders.keys() <= on_page.keys()
+    assert {name: s["unit"] for name, s in sliders.items()} == {name: pretty(on_page[name]["unit"]) for name in sliders}
+    assert all(s["called"] == name for name, s in sliders.items())
+    mass, support = sliders["carrier.mass"], sliders["crank.support_compliance"]
+    assert (mass["unit"], mass["off"], support["unit"], round(support["off"], 6)) == ("kg", 0.715, "µm/kN", 8.06)
+    assert support["name"] == "crank_seat_compliance"
+
+
 def test_results_are_told_without_numbers_that_json_lacks(tmp_path):
 
     from workbench.told import write_json

@@ -76,7 +76,7 @@ def test_a_reducer_is_completed_as_stiff_as_its_catalogue_and_its_stiffness_stan
     with pytest.raises(InputFault, match="torsional stiffness of the catalogue"):
         completed(folder, {**asked, "stiffness": "212kg"})
     # Far beyond the rules it is a mistaken unit, here as on the command line.
-    with pytest.raises(InputFault, match=r"^'torsional stiffness of the catalogue' 212\.5 Nm/deg is 3\.54167 N\.m/arcmin: it asks for .* did you mean 212\.5 N\.m/arcmin\?"):
+    with pytest.raises(InputFault, match=r"^'torsional stiffness of the catalogue' 212\.5 Nm/deg is 3\.54167 N m/arcmin: it asks for .* did you mean 212\.5 N m/arcmin\?"):
         completed(folder, {**asked, "stiffness": "212,5 Nm/deg", "save": True})
     assert not folder.models()
 

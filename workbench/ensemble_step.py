@@ -10,7 +10,7 @@ from fmu_src.checked_file import write_text
 from fmu_src.faults import InputFault, MissingPart
 from fmu_src.held_file import held
 from fmu_src.progress import task
-from pages.words import micro
+from pages.words import units_in_print
 from workbench.folder import Folder
 from workbench.form import number, settings_of, whole
 from workbench.told import write_json
@@ -90,7 +90,7 @@ def shown(drawn: "Ensemble", found: "Mapping[int, Outcome]", planned: int) -> di
     from studies.ensemble.bands import bands
 
     told = bands(drawn, found, planned)
-    return told | {"panes": [pane | {"unit": micro(pane["unit"])} for pane in told["panes"]]}
+    return told | {"panes": [pane | {"unit": units_in_print(pane["unit"])} for pane in told["panes"]]}
 
 
 def text_of(folder: Folder, given: Mapping[str, Any]) -> str:

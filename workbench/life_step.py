@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 PANES = (
     ("depth", "µm", (("disc_flank_um", "flank"), ("pin_um", "pin"), ("inner_raceway_um", "inner raceway"), ("outer_raceway_um", "outer raceway"))),
     ("lag over a crank turn", "arcsec", (("mean_lag_arcsec", "lag"),)),
-    ("transmission error p-p", "arcsec", ((OVER_TURN, "transmission error p-p, output turn"),)),
+    ("transmission error", "arcsec", ((OVER_TURN, "transmission error, peak to peak"),)),
     ("lost motion, input held", "arcmin", (("lost_motion_arcmin", "lost motion"),)),
-    ("torsional stiffness, running", "N·m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
+    ("torsional stiffness, running", "N m/arcmin", (("torsional_stiffness_Nm_per_arcmin", "running stiffness"),)),
 )  # fmt: skip
 # Until the life ends nobody goes round a turn of the output at the hour that was reached.
 LATEST = "the latest transmission error is one of earlier hours, until the life ends"

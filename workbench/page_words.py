@@ -2,6 +2,7 @@
 
 import re
 
+from fmu_src.unit_words import unit_on_screen
 from workbench.file_words import in_fields
 
 # What does on the page what a command does; what nothing there does keeps its command.
@@ -18,6 +19,7 @@ SCALE = re.compile(r"with --scale (?P<quote>'?)(?P<column>.*?)=[\d.e+-]+(?P=quot
 
 def on_page(text: str) -> str:
     """With what an option is called, in place of the option."""
+    text = unit_on_screen(text)
     text = in_fields(SCALE.sub(lambda m: f"typed under In as the scale of column {m['column']}, or", text))
     text = COMMAND.sub(lambda m: BUTTONS[m[1]], text)
     # A line to type has options of its own.

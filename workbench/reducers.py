@@ -11,12 +11,11 @@ from typing import Any
 from discrepancy.as_told import is_direction
 from discrepancy.intervals import both_texts
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
+from discrepancy.scales import of_number
 from discrepancy.written_number import written_entry
 from fmu_src.checked_file import write_text
-from fmu_src.display import display_unit
 from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault, RunFault
-from fmu_src.units import conversion
 from pages.content import Card
 from pages.words import in_print, number
 from reducers.checking import Check, check
@@ -40,10 +39,10 @@ from workbench.told import figure_data, page_data
 
 # What the form asks for: name, what it is, unit, whether it must be given.
 ASKED = (
-    ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", False), ("rated", "rated torque", "N·m", True),
+    ("ratio", "ratio, carrier as output", "", True), ("pins", "pins in the ring", "", False), ("rated", "rated torque", "N m", True),
     ("diameter", "outer diameter of the housing", "mm", False), ("speed", "rated output speed", "rpm", False), ("cranks", "cranks", "", False),
     ("rollers", "rollers of a crank bearing", "", False), ("lost_motion", "lost motion of the catalogue", "arcmin", False),
-    ("stiffness", "torsional stiffness of the catalogue", "N·m/arcmin", False),
+    ("stiffness", "torsional stiffness of the catalogue", "N m/arcmin", False),
 )  # fmt: skip
 WHOLE = ("pins", "cranks", "rollers")
 
@@ -118,15 +117,14 @@ def numbers(reducer: Reducer) -> list[dict[str, Any]]:
         variable = next((t.by_name[name] for t in (reducer.plant, reducer.wear, reducer.joint) if name in t.by_name), None)
         if variable is None:
             continue
-        unit = display_unit(variable) or variable.unit
-        factor, offset = conversion(variable.unit, unit)
+        scale = of_number(variable)
         low, high = reducer.ranges.get(name, (math.nan, math.nan))
-        text = variable.choices[int(value)] if variable.choices else number(factor * value + offset, 5)
+        text = variable.choices[int(value)] if variable.choices else number(scale.number(value), 5)
         source = reducer.sources.get(name, "")
         rows.append({
-            "name": variable.path, "value": text, "unit": "" if unit == "1" or variable.choices else unit, "meaning": variable.description, "source": source,
-            "assumed": source.startswith(("assumed", "completed", "found")), "outside": bool(low > value or high < value),
-            "range": f"{number(factor * low + offset)} to {number(factor * high + offset)}" if math.isfinite(low) else "",
+            "name": variable.path, "value": text, "unit": "" if scale.unit == "1" or variable.choices else scale.unit, "meaning": variable.description,
+            "source": source, "assumed": source.startswith(("assumed", "completed", "found")), "outside": bool(low > value or high < value),
+            "range": f"{number(scale.number(low))} to {number(scale.number(high))}" if math.isfinite(low) else "",
         })  # fmt: skip
     return rows
 
@@ -179,7 +177,7 @@ def test_cards(reducer: Reducer, completion: Completion, stiffness: float | None
         return [Card("torsional stiffness", "unknown", f"{asked}; the test fails: {fault}")]
     target = next((one for one in targets_of(found, asked_of(completion.given)) if one.name == LOST_MOTION), None)
     return [
-        Card("torsional stiffness", f"{found.stiffness_Nm_per_arcmin:.4g}", asked, unit="N·m/arcmin"),
+        Card("torsional stiffness", f"{found.stiffness_Nm_per_arcmin:.4g}", asked, unit="N m/arcmin"),
         Card("lost motion", f"{found.lost_motion_arcmin:.3g}", lost_motion_words(target, completion), unit="arcmin"),
     ]
 

@@ -1,12 +1,15 @@
-"""Try: runs with as many samples as a screen shows."""
+"""Try: runs with as many samples as a screen shows, and what of a campaign that is."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.problem import Record
+from pages.words import ordinal
 
 # Samples of the curve that follows the hand: more than a screen is wide make no picture better.
 FEW = 1200
@@ -28,3 +31,17 @@ def kept_of(record: Record) -> npt.NDArray[np.intp]:
         angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
         kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
     return kept[:: max(1, math.ceil(len(kept) / FEW))]
+
+
+def taken_words(record: Record, records: Sequence[Record]) -> str:
+    """What of a run, and how many of all runs, are looked at: one of each condition; empty where that is all there is."""
+    shown = len({(stream_of(one), one.condition) for one in records})
+    said = [f"{shown} of {len(records)} runs, one of each condition"] if shown < len(records) else []
+    kept, every = kept_of(record), len(record.values)
+    if len(kept) < every:
+        step = int(kept[1] - kept[0])
+        # Of the last step as many are left as there are.
+        first_turn = kept[-1] + step < every
+        parts = [*(["the first turn"] if first_turn else []), *([f"every {ordinal(step)} sample"] if step > 1 else [])]
+        said.append(f"of this one {', '.join(parts)} ({len(kept):,} of {every:,} samples)")
+    return "; ".join(said)

@@ -8,6 +8,7 @@ from typing import Any
 
 from exports.plain import plain_json
 from fmu_src.checked_file import write_text
+from fmu_src.unit_words import unit_on_screen
 from pages.content import Page, Table
 from pages.look import Figure
 from pages.render import described
@@ -57,4 +58,4 @@ def in_words(text: str) -> str:
     """What is told on the way, its effects and signals called as the page calls them elsewhere."""
     from discrepancy.page import amounts
 
-    return names().sub(lambda name: amounts.signal_title(name[0]), amounts.in_words(text))
+    return names().sub(lambda name: amounts.signal_title(name[0]), amounts.in_words(unit_on_screen(text)))

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.as_told import tables_of
 from discrepancy.campaign.load import load_campaign
+from discrepancy.campaign.model import Campaign
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.model_file import every_effect, load_model
 from discrepancy.page import amounts
@@ -17,17 +19,18 @@ from discrepancy.page.runs import axis_name
 from discrepancy.prediction.candidates import parameter_of
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, ORDERS, Candidate, Parameter, Record
-from discrepancy.scales import of_axis, of_parameter
+from discrepancy.scales import Scale, of_axis, of_number, of_parameter
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
 from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault
+from fmu_src.table import Table
 from fmu_src.threads import Stopped, giving_way
 from workbench.beside import Beside
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
 from workbench.own_zero import ALIKE, as_in_look, at_own_zero, moved
-from workbench.thinned import thinned
+from workbench.thinned import taken_words, thinned
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
 REACH = 5.0
@@ -100,7 +103,7 @@ class Trial:
                     "law": effect.law if effect else "", "says": effect.signature if effect else candidate.title, "source": effect.source if effect else "",
                     "parameters": [slider(p, p in candidate.amplitudes) for p in candidate.parameters],
                 })  # fmt: skip
-            numbers = [base_number(c) for c in found.candidates if c.part == BASE]
+            numbers = [base_number(c, tables_of(found)) for c in found.candidates if c.part == BASE]
             runs = [{"run": r.name, "signal": stream_of(r), "title": amounts.signal_title(stream_of(r)), "condition": r.condition, "replicate": r.replicate,
                      "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records]  # fmt: skip
             return {"model": model, "effects": present(found) + effects, "numbers": numbers, "runs": runs}
@@ -171,6 +174,7 @@ def drawn(models: Sequence[Beside], run: str, values: Mapping[str, float], rough
         "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
         "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
         "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
+        "taken": taken_words(run_of(beside_it.campaign, run), found.records),
         "look": as_in_look(error_of(record, in_common) * factor, error_of(record, base) * factor, unit, by) if in_look else "",
     }  # fmt: skip
     return words, np.array([x, *(factor * curve for curve in curves)])
@@ -220,7 +224,7 @@ def is_worn(record: Record) -> bool:
     return bool(np.any(np.asarray(record.axes.get("hours", record.factors.get("hours", 0.0))) > 0.0))
 
 
-def run_of(model: PhysicalModel, run: str) -> Record:
+def run_of(model: PhysicalModel | Campaign, run: str) -> Record:
     """InputFault where there is none of that name."""
     found = next((r for r in model.records if r.name == run), None)
     if found is None:
@@ -243,8 +247,9 @@ def mean_of(errors: Sequence[float]) -> float:
     return math.sqrt(float(np.mean(np.square(errors))))
 
 
-def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
-    """A parameter in the unit that suits its size, from bound to bound, or as far as a bench is likely to meet."""
+def slider(p: Parameter, is_amplitude: bool, called: str = "", scale: Scale | None = None) -> dict[str, Any]:
+    """A parameter in the unit that suits its size, or as ``scale`` has it, from bound to bound, or as far as a bench is likely to meet; ``called`` other
+    than by its own name."""
     low, high = max(p.lower, p.off - REACH * p.scale), min(p.upper, p.off + REACH * p.scale)
     if p.sign > 0:
         low = p.off
@@ -256,17 +261,21 @@ def slider(p: Parameter, is_amplitude: bool) -> dict[str, Any]:
     if p.counts:
         low, high = 1.0, p.upper
     # An angle is told in the unit of its usual size, as a diagnosis tells what it finds, not in that of how far the slider reaches.
-    scale = of_parameter(p.scale if p.unit == "rad" else max(abs(low), abs(high)), p.unit, p.is_direction)
+    scale = scale or of_parameter(p.scale if p.unit == "rad" else max(abs(low), abs(high)), p.unit, p.is_direction)
     plain = p.description.removesuffix(" (0: off)")
     return {
-        "name": p.name, "unit": amounts.pretty(scale.unit), "factor": scale.factor, "offset": scale.offset, "off": scale.number(off),
+        "name": p.name, "called": called or p.name.replace("_", " "), "unit": amounts.pretty(scale.unit), "factor": scale.factor,
+        "offset": scale.offset, "off": scale.number(off),
         "low": scale.number(low), "high": scale.number(high), "bounds": [scale.number(p.lower), scale.number(p.upper)], "typical": scale.factor * p.scale,
         "amplitude": is_amplitude, "all_round": all_round, "counts": p.counts, "description": p.description, "of": "" if amounts.pretty(scale.unit) else plain,
     }  # fmt: skip
 
 
-def base_number(candidate: Candidate) -> dict[str, Any]:
-    return {"name": candidate.name, "title": candidate.title, "parameters": [slider(p, True) for p in candidate.parameters]}
+def base_number(candidate: Candidate, tables: Sequence[Table]) -> dict[str, Any]:
+    """A number of the reducer, called and in the unit as on the reducer's own page: people look it up there."""
+    [p] = candidate.parameters
+    variable = next(t.by_name[p.name] for t in tables if p.name in t.by_name)
+    return {"name": candidate.name, "title": variable.path, "parameters": [slider(p, True, variable.path, of_number(variable))]}
 
 
 def own_parameters(model: PhysicalModel) -> dict[str, list[tuple[EffectParameter, Parameter]]]:

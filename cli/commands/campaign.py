@@ -45,7 +45,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     rv.add_argument("source", metavar="CLONE", help="the clone's folder, or a table of orders (.csv) made of it")
     rv.add_argument("folder", metavar="OUT", help="folder to write to; nothing in it is overwritten")
     rv.add_argument("--reducer", metavar="FILE", help="reducer file for that reducer (default: state its ratio and rated torque)")
-    rv.add_argument("--rated", type=float, default=1600.0, metavar="N.m", help="rated torque that is stated without a reducer file (default 1600, assumed)")
+    rv.add_argument("--rated", type=float, default=1600.0, metavar="NM", help="rated torque [N m] stated without a reducer file (default 1600, assumed)")
     rv.add_argument("--orders", type=float, nargs="+", metavar="K", help="orders per turn of the output to take from curves (default: the ten of the source)")
     rv.add_argument("--noise", metavar="NUMBER", help='standard deviation of each number of an order, for instance "0.3 arcsec" (default: that, assumed)')
     rv.add_argument("--held-out", type=float, default=0.2, metavar="SHARE", help="share of the whole conditions that is held out (default 0.2)")

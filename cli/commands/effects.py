@@ -8,6 +8,7 @@ from cli.options import IDEAL_REDUCER, add_json, add_reducer, page_path
 from cli.written import say_file
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
+from fmu_src.unit_words import unit_on_screen
 
 if TYPE_CHECKING:
     from discrepancy.catalogue.catalogue import Entry
@@ -89,7 +90,7 @@ def check_files(files: list[Path], as_json: bool) -> int:
 
 def sound(name: str, doubts: "list[Finding]") -> list[str]:
     """Of a file in which nothing is wrong: only such a one lies where its folder names its unit."""
-    return [f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name))), *(f"  doubtful: {f.text}" for f in doubts)]
+    return [f"{name}: nothing wrong", *(f"  {text}" for text in of_parameters(Path(name))), *(f"  doubtful: {unit_on_screen(f.text)}" for f in doubts)]
 
 
 def of_parameters(file: Path) -> list[str]:

@@ -38,8 +38,8 @@ LIFE_COLUMNS = (
     ("disc_flank_um", "\nflank\num", 3), ("pin_um", "\npin\num", 3), ("inner_peak_deg", "inner\nat\ndeg", 0),
     ("outer_peak_deg", "outer\nat\ndeg", 0), ("disc_peak_deg", "flank\nat\ndeg", 0),
     ("peak_pin_force_N", "pin\nforce\nN", 0), ("mean_loaded_teeth", "\nloaded\nteeth", 1),
-    ("mean_lag_arcsec", "\nlag\narcsec", 1), (OVER_TURN, "\nTE p-p\narcsec", 2),
-    ("torsional_stiffness_Nm_per_arcmin", "stiff\nNm per\narcmin", 0), ("lost_motion_arcmin", "lost\nmotion\narcmin", 3),
+    ("mean_lag_arcsec", "\nlag\narcsec", 1), (OVER_TURN, "transm.\nerror\narcsec", 2),
+    ("torsional_stiffness_Nm_per_arcmin", "stiff\nN m per\narcmin", 0), ("lost_motion_arcmin", "lost\nmotion\narcmin", 3),
 )  # fmt: skip
 
 

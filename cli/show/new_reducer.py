@@ -7,7 +7,6 @@ from textwrap import shorten
 
 from cli.screen import WIDTH, console, dense, styled
 from fmu_src.display import read_text
-from fmu_src.unit_words import unit_on_screen
 from reducers.completion.command import given_words
 from reducers.completion.compare import Row
 from reducers.completion.complete import AS_STIFF, COMPLETED, FOUND, Completion
@@ -37,7 +36,7 @@ def show(completion: Completion, name: str, file: Path, test: Hysteresis | None,
     for doubt in completion.doubts:
         console().print(styled(("doubtful: ", "yellow"), doubt))
     if (free := completion.numbers[FREE]).source.startswith(AS_STIFF):
-        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {unit_on_screen(free.source.removeprefix(f'{FOUND}: '))}")
+        console().print(f"{free.name} = {read_text(free.value, free.unit, 4)} {free.source.removeprefix(f'{FOUND}: ')}")
     console().print(
         f"given: {given_words(completion.given)}; {counts_of(completion).words}; each stands in the file with its range and its rule in full,"
         " --known NAME=VALUE replaces one and what hangs on it"

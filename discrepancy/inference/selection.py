@@ -9,7 +9,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
-from discrepancy.inference.outlook import BESIDE, IN_EARNEST, Outlook
+from discrepancy.inference.outlook import IN_EARNEST, Outlook
 from discrepancy.inference.refit.confusable import (
     FORM,
     confusable_set,
@@ -181,7 +181,7 @@ class Selection:
             if not promising:
                 break
             own = {p.name: current.fit.values[p.name] for p in current.own}
-            self.outlook.after(BESIDE)
+            self.outlook.found(len(names) - calibrated)
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
             challenger = ranked(trials)[0]

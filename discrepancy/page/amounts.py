@@ -15,6 +15,7 @@ from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
 from fmu_src.arrays import Floats
 from fmu_src.effect_words import effect_title
+from fmu_src.unit_words import unit_on_screen
 from pages.words import number
 
 TITLES = {
@@ -31,7 +32,7 @@ TITLES = {
 def pretty(unit: str) -> str:
     """A unit's name in print."""
     plain = "" if unit == "1" else "°" if unit == "deg" else unit
-    return plain.replace("um", "µm").replace("N.m", "N·m").replace("g.mm", "g·mm").replace("degC", "°C").replace("^2", "²")
+    return unit_on_screen(plain).replace("um", "µm").replace("g.mm", "g mm").replace("degC", "°C").replace("^2", "²")
 
 
 def scale(unit: str, signal: str = "") -> tuple[float, str]:

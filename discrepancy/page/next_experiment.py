@@ -105,7 +105,7 @@ def title(proposal: Proposal) -> str:
 
 
 def readable(name: str) -> str:
-    return name.replace("_", " ").replace("degC", "°C").replace("N.m", "N·m")
+    return name.replace("_", " ").replace("degC", "°C").replace("N.m", "N m")
 
 
 def size(separation: float) -> str:

@@ -11,6 +11,7 @@ from discrepancy.page.runs import Run, axis_of, slug
 from fmu_src.arrays import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
+from pages.words import ordinal
 
 # Samples drawn of one series: fewer where there are many conditions, so that the page stays small.
 SAMPLES, FEWEST, MOST = 40_000, 800, 3_000
@@ -174,8 +175,3 @@ def stride(run: Run, most: int) -> int:
 
 def rms(values: npt.ArrayLike) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
-
-
-def ordinal(n: int) -> str:
-    ending = "th" if 10 <= n % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(n % 10, "th")
-    return f"{n}{ending}"

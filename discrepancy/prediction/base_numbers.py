@@ -25,5 +25,5 @@ def base_numbers(reducer: Reducer, taken: Container[str]) -> list[Candidate]:
         value = reducer.starts[name]
         sign = 1 if value == low else -1 if value == high else 0
         number = Parameter(name, variable.unit, value, low, high, STEP * deviation, sign, deviation, text)
-        found.append(Candidate(f"{BASE}.{name}", f"{name} of the reducer file", (number,), part=BASE))
+        found.append(Candidate(f"{BASE}.{name}", f"{variable.path} of the reducer file", (number,), part=BASE))
     return found

@@ -170,7 +170,7 @@ def turn_curves(result: Result) -> list[Figure]:
               1e-6 * result["contact_pressure"], "Between disc and pin, at the worst contact of each position."),
         curve(result, "turn_teeth", "Loaded teeth", "teeth in contact", result["loaded_teeth"],
               "Pins that the selected disc touches.", step=True),
-        curve(result, "turn_torque", "Input torque", "torque [N·m]", result["drive_torque"],
+        curve(result, "turn_torque", "Input torque", "torque [N m]", result["drive_torque"],
               "Torque that holds the input against the load."),
     ]  # fmt: skip
 

@@ -31,7 +31,7 @@ def table(found: Comparison) -> Table:
     """One row per operating point."""
     volumes = [f"{label} volume" for label in MAPS.values()]
     profiles = [f"{label} profile" for label in MAPS.values()]
-    head = ["point", "input rpm", "torque N·m", "teeth pass Hz", *volumes, *profiles, "dynamics"]
+    head = ["point", "input rpm", "torque N m", "teeth pass Hz", *volumes, *profiles, "dynamics"]
     rows = [
         [p.name, number(p.input_speed_rpm), number(p.output_torque_Nm), number(p.passing_Hz),
          *(number(v, 2) for v in (*p.volume_change.values(), *p.map_difference.values())),

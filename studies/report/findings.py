@@ -49,8 +49,8 @@ def cards(result: Result) -> list[Card]:
         "peak_contact_pressure_MPa": ("Peak contact pressure", "MPa", ""),
         "mean_loaded_teeth": ("Loaded teeth per disc", "", ""),
         "mean_lag_arcsec": ("Mean lag", "arcsec", ""),
-        OVER_TURN: ("Transmission error, output turn (p-p)", "arcsec", ""),
-        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness, running", "N·m/arcmin", ""),
+        OVER_TURN: ("Transmission error, peak to peak", "arcsec", ""),
+        "torsional_stiffness_Nm_per_arcmin": ("Torsional stiffness, running", "N m/arcmin", ""),
         **({"lost_motion_arcmin": ("Lost motion, input held", "arcmin", "")} if has_lost_motion(result) else {}),
     }
     made = []
@@ -98,7 +98,7 @@ def conditions(result: Result) -> str:
     t = result.topology
     life = hour_text(result.hours[-1]) if result.hours[-1] > 0.0 else "New,"
     return (
-        f"{life} at {torque} N·m and {number(rpm)} rpm output"
+        f"{life} at {torque} N m and {number(rpm)} rpm output"
         f" ({number(30.0 / math.pi * abs(result.crank_speed))} rpm of the cranks);"
         f" {t.discs} discs, {t.cranks} cranks, {t.pins} pins, {t.rollers} rollers per bearing"
     )
@@ -171,7 +171,7 @@ def accuracy(result: Result) -> list[str]:
     if number(lag[0]) == number(lag[1]):
         before = f"still stands {number(lag[1])} arcsec behind its ideal angle"
     error = moves("the transmission error over one turn of the output", result, OVER_TURN, "arcsec peak to peak")
-    stiffness = moves("running torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N·m/arcmin")
+    stiffness = moves("running torsional stiffness", result, "torsional_stiffness_Nm_per_arcmin", "N m/arcmin")
     found = [error, stiffness, *([moves("lost motion", result, "lost_motion_arcmin", "arcmin")] if has_lost_motion(result) else [])]
     return [f"The carrier {before}; {', '.join(found[:-1])}, and {found[-1]}."]
 

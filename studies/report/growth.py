@@ -29,7 +29,7 @@ def figures(result: Result) -> list[Figure]:
                ("transmission_error_pp_arcsec", "second stage alone, over one crank turn", SECOND, "dash")],
               "Whole: output less input over the ratio, over one turn of the output, between the first hour and the last as the jumps show it."
               f" Second stage alone: against the cranks, {WINDOW}, so it misses what errors fixed to the ring do elsewhere."),
-        small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N·m/arcmin]",
+        small(result, "growth_stiffness", "Torsional stiffness", "stiffness [N m/arcmin]",
               [("torsional_stiffness_Nm_per_arcmin", "second stage", LOAD, "solid")],
               f"Contacts of the second stage alone, {WINDOW}. {capital(RUNNING)}."),
         small(result, "growth_force", "Peak forces", "force [N]", [("peak_pin_force_N", "pin", LOAD, "solid"),

@@ -21,7 +21,7 @@ from wear_fmu.variables import Resolution, wear_table
 SHOWN = {
     "m": (("mm", 1e3, 0.05), ("µm", 1e6, 0.0)), "rad": (("°", math.degrees(1.0), 0.0),),
     "rad/s": (("rpm", 30.0 / math.pi, 0.0),), "Pa": (("GPa", 1e-9, 0.1), ("MPa", 1e-6, 0.0)),
-    "s": (("h", 1.0 / 3600.0, 0.0),), "N.m": (("N·m", 1.0, 0.0),), "rad/(N.m)": (("rad/(N·m)", 1.0, 0.0),),
+    "s": (("h", 1.0 / 3600.0, 0.0),), "N.m": (("N m", 1.0, 0.0),), "rad/(N.m)": (("rad/(N m)", 1.0, 0.0),),
     "1": (("", 1.0, 0.0),),
 }  # fmt: skip
 # At their starts an effect is off, whatever its other parameters are.

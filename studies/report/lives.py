@@ -13,7 +13,7 @@ from pages import look
 from pages.charts import COLOURS
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure, Trace
-from pages.words import hour_text, micro, number
+from pages.words import hour_text, number, units_in_print
 from studies.figure_units import figure_unit
 
 WHAT, REMEDY = "a result of rvwear ensemble", "rvwear ensemble writes one"
@@ -112,7 +112,7 @@ def bands(found: Mapping[str, Any]) -> Figure:
     for k, pane in enumerate(panes):
         own = "y" if k == 0 else f"y{k + 1}"
         low, lower, middle, upper, high = (np.asarray(row, float) for row in pane["quantiles"])
-        limit, unit = pane.get("limit"), micro(pane["unit"])
+        limit, unit = pane.get("limit"), units_in_print(pane["unit"])
         hover = f"%{{x:,.0f}} h: %{{y:.4~g}} {unit}"
         traces += [trace | {"xaxis": "x", "yaxis": own, "showlegend": k == 0} for trace in (
             area(hours, low, high, NINE, "nine of ten"), area(hours, lower, upper, HALF, "half of them"),
@@ -198,7 +198,7 @@ def of_variance(found: Mapping[str, Any]) -> Table:
 def of_scatters(found: Mapping[str, Any]) -> Table:
     rows = [
         [one["name"], one["distribution"], ", ".join(f"{key} {value:.6g}" for key, value in one["numbers"].items()),
-         "" if one["unit"] == "1" else micro(one["unit"])]
+         "" if one["unit"] == "1" else units_in_print(one["unit"])]
         for one in found["scatters"]
     ]  # fmt: skip
     return Table("", ["number", "distribution", "its numbers", "unit"], rows)
@@ -209,5 +209,5 @@ def title_of(figure: str) -> str:
 
 
 def unit_of(figure: str) -> str:
-    return micro(figure_unit(figure))
+    return units_in_print(figure_unit(figure))
 

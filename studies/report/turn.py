@@ -48,5 +48,5 @@ def turned(turn: xr.Dataset) -> Floats:
 def loop_figures(loop: xr.Dataset) -> list[Figure]:
     """``loop``: of ``studies.turn``: turning over torque."""
     curve = Curve("torque up and down, input locked", loop["torque"].values, loop["turning"].values)
-    text = f"lost motion {number(loop['lost_motion_arcmin'].item())} arcmin, stiffness {number(loop['torsional_stiffness_Nm_per_arcmin'].item())} N·m/arcmin"
-    return [chart("loop", str(loop.attrs["title"]), text, [curve], "torque [N·m]", "turning of the output [arcmin]")]
+    text = f"lost motion {number(loop['lost_motion_arcmin'].item())} arcmin, stiffness {number(loop['torsional_stiffness_Nm_per_arcmin'].item())} N m/arcmin"
+    return [chart("loop", str(loop.attrs["title"]), text, [curve], "torque [N m]", "turning of the output [arcmin]")]

@@ -156,6 +156,9 @@ export function number(value, digits = 4) {
   return value.toFixed(Math.max(0, Math.min(12, digits - 1 - size))).replace("-", "−");
 }
 
+// A torque's unit as the screen has it; what is typed and what files hold keep their point.
+export const unitShown = (unit) => unit.replaceAll("N.m", "N m");
+
 export const words = (text) => String(text).replaceAll("_", " ");
 
 // An effect in one of its forms: ``raceway_wear.inner`` as "raceway wear (inner)".

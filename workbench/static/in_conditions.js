@@ -1,6 +1,6 @@
 // Conditions of the dropped files: what is needed, what is not sure, and the table of their numbers.
 
-import { choose, h, note, table, words } from "./dom.js";
+import { choose, h, note, table, unitShown, words } from "./dom.js";
 import { anglesNamed, soItIs, yes } from "./in_yes.js";
 import { mountings } from "./in_zero.js";
 import { PLACE, matters, saysNothing, toCell } from "./to_cell.js";
@@ -72,7 +72,7 @@ function amount(key, text, onchange, id, named = "") {
   // Beside a number with a unit of its own no other stands.
   const beside = () => {
     const given = field.value.trim();
-    unit.textContent = !given || NUMBER.test(given) ? (UNITS[key] ?? "") : "";
+    unit.textContent = !given || NUMBER.test(given) ? unitShown(UNITS[key] ?? "") : "";
   };
   const field = h("input", {
     type: "text",

@@ -4,7 +4,7 @@ import { choose, h } from "./dom.js";
 
 const NUMBER = /(\d+(?:[.,]\d+)?)/;
 // Field of a pattern of names, with what a number without a unit is taken for.
-const FIELDS = { load: "load torque [N·m]", speed: "speed [rpm]", temperature: "temperature [°C]", hours: "hours [h]", locked_at: "input locked at [°]" };
+const FIELDS = { load: "load torque [N m]", speed: "speed [rpm]", temperature: "temperature [°C]", hours: "hours [h]", locked_at: "input locked at [°]" };
 // What stands right behind a number that is an angle: of a condition it is the one at which the input was locked.
 const DEGREES = /^\s?(°|deg|grad|gradi|grados|graus|degrés?|度)(?!\p{L})/iu;
 

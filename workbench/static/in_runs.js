@@ -1,6 +1,6 @@
 // What dropped files are taken for, group by group: quantity, columns with curve and unit, why; each corrected by a click.
 
-import { choose, h, spark, table, words } from "./dom.js";
+import { choose, h, spark, table, unitShown, words } from "./dom.js";
 import { doubtNotes } from "./doubts.js";
 import { apart, family, familyPattern, numbersSaid } from "./in_names.js";
 import { unitOf } from "./in_unit.js";
@@ -133,7 +133,7 @@ function group(bag, members) {
       unitOf(entry, { units, factor: data.wishes.scales?.[`${own[0]}:${entry.header}`] }, (part, value, place) => forAll(part, (name) => `${name}:${entry.header}`, value, place)),
       [
         h("span", { class: entry.column.sure && entry.unit.sure ? "" : "fair" }, `${entry.why.join("; ")} `),
-        entry.column.sure && entry.unit.sure ? null : soItIs(`${entry.header} is ${words(role)} in ${entry.unit.value}`, () => confirm(role, entry)),
+        entry.column.sure && entry.unit.sure ? null : soItIs(`${entry.header} is ${words(role)} in ${unitShown(entry.unit.value)}`, () => confirm(role, entry)),
       ],
     ];
   });

@@ -1,6 +1,6 @@
 // In which unit a column was written, and by which factor its numbers are multiplied; what cannot be is refused where it was typed.
 
-import { choose, h } from "./dom.js";
+import { choose, h, unitShown } from "./dom.js";
 
 export const SCALE = "what the numbers of the column are multiplied by, such as 0.001, -1 or 1/3437.75";
 
@@ -14,7 +14,7 @@ export function unitOf(entry, { units, factor }, change) {
     if (!taken) field.setAttribute("aria-invalid", "true");
   };
   const list = choose(
-    [...all.map((u) => [u, u]), [other, other]],
+    [...all.map((u) => [u, unitShown(u)]), [other, other]],
     entry.unit.value,
     (value) => {
       if (value !== other) {

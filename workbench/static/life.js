@@ -116,7 +116,7 @@ export function show(root, context) {
               torque = e.target.value;
             },
           }),
-          "N·m",
+          "N m",
         ),
         h(
           "label",

@@ -176,18 +176,18 @@ export function show(root, context) {
 
   const summary = () =>
     Object.entries(values)
-      .map(([k, v]) => `${words(k)} ${shown(k, v)}`)
+      .map(([k, v]) => shown(k, v))
       .join(", ") || (carried().length ? `the model as it is, its own effects on (${carried().join(", ")})` : "base model");
   // Effects that the model file has already: they stay when all is off.
   const carried = () => data.effects.filter((e) => e.carried).map((e) => e.title);
   const parameters = () => [...data.effects, ...data.numbers].flatMap((e) => e.parameters);
   const shown = (name, value) => {
     const p = parameters().find((q) => q.name === name);
-    return p ? `${number(value * p.factor + p.offset, 3)} ${p.unit}` : number(value, 3);
+    return p ? `${p.called} ${number(value * p.factor + p.offset, 3)} ${p.unit}` : `${words(name)} ${number(value, 3)}`;
   };
 
   // What is called so stands open and first; what a search only finds in the words about it (which all forms of an effect share) is listed.
-  const named = (e) => !!search && `${e.title} ${e.parameters.map((p) => p.name).join(" ")}`.toLowerCase().includes(search);
+  const named = (e) => !!search && `${e.title} ${e.parameters.map((p) => `${p.name} ${p.called}`).join(" ")}`.toLowerCase().includes(search);
   const shownEntry = (e) => entry(e, { values, open: search.length > 2 && named(e), drawList, follow });
   function drawList() {
     if (!data) return;
@@ -308,8 +308,8 @@ export function show(root, context) {
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",
       t.free ? " · the zero is free: drawn at the fitted one" : "",
-      t.placed ? h("span", { id: "placed" }, ` · ${t.placed}`) : "",
-      t.look ? h("span", { id: "as-look" }, ` · model: ${t.look}`) : "",
+      Object.entries({ placed: t.placed, "as-look": t.look && `model: ${t.look}` }).map(([id, text]) => (text ? h("span", { id }, ` · ${text}`) : "")),
+      t.taken ? h("span", { id: "taken", style: { display: "block" } }, `shown: ${t.taken}`) : "",
     );
   }
 

@@ -1,6 +1,6 @@
 // One effect under Try: what it is, and its sliders.
 
-import { h, number, words } from "./dom.js";
+import { h, number } from "./dom.js";
 
 const plain = (value) => String(Number(value.toPrecision(4)));
 
@@ -57,7 +57,7 @@ export function entry(e, { values, open, drawList, follow }) {
 }
 
 // ``sensor_drift[hysteresis]`` as "sensor drift (hysteresis)": in square brackets stand units.
-const called = (p) => words(p.name).replace(/\[([^\]]*)\]$/, " ($1)");
+const called = (p) => p.called.replace(/\[([^\]]*)\]$/, " ($1)");
 
 function slider(p, values, follow) {
   const value = p.name in values ? values[p.name] * p.factor + p.offset : p.off,
