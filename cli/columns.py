@@ -54,9 +54,10 @@ def pieces(name: str) -> list[str]:
 
 
 def in_lines(name: str, width: int) -> str:
-    """A name in as few lines as it can be, of about one width: no letter is left alone in the last."""
+    """A name in as few lines as it can be, of about one width: no letter is left alone in the last, and no piece is broken that has room in one."""
     lines = broken(name, width)
-    narrower = next((width for width in range(1, width) if len(broken(name, width)) == len(lines)), width)
+    least = widest(pieces(name))
+    narrower = next((width for width in range(least if least <= width else 1, width) if len(broken(name, width)) == len(lines)), width)
     return "\n".join(line.rstrip() for line in broken(name, narrower))
 
 

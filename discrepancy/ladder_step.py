@@ -36,7 +36,9 @@ class Step:
 
     @property
     def label(self) -> str:
-        return " + ".join(effect_words(name).replace(".", ": ") for name in self.effects)
+        """``sensor gain (input torque) + drag``"""
+        parted = (effect_words(name).partition(".") for name in self.effects)
+        return " + ".join(effect + (f" ({form})" if form else "") for effect, _, form in parted)
 
     @property
     def left(self) -> dict[str, float]:

@@ -24,6 +24,7 @@ from tomlkit.items import InlineTable, Table
 from discrepancy.campaign.amount import is_number, split
 from discrepancy.counted_from import ZERO, zero_texts, zeros_of
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
+from discrepancy.refused_file import only_refused
 from discrepancy.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
@@ -119,8 +120,12 @@ class ModelFile:
 
     @property
     def heading(self) -> str:
-        """Its name, and that of its file where this is another: several files may carry on one model."""
-        return self.name if self.path is None or self.path.stem == self.name else f"{self.path.name} ({self.name})"
+        """Its name, and that of its file where this is another: several files may carry on one model; with what was refused where that is all of it."""
+        if self.path is None or self.path.stem == self.name:
+            return self.name
+        alone = only_refused({"effects": self.effects, "settings": self.settings, "steps": self.steps})
+        refused = f"; refused: {', '.join(' + '.join(step['effects']) for step in self.steps)}" if alone else ""
+        return f"{self.path.name} ({self.name}{refused})"
 
     @property
     def label(self) -> str:

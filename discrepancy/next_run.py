@@ -174,7 +174,7 @@ def rest_text(stands: str, untold: Sequence[str], campaign: Campaign) -> str:
     cost = f"{REPEATS * campaign.rig.cost_per_run:g} {campaign.rig.currency.removeprefix('1')}".rstrip() if campaign.rig else f"{REPEATS} runs"
     which = "this" if len(untold) == 1 else "only the first of these" if len(by_runs) == 1 else f"the first {len(by_runs)} of these"
     asked = f"{which} can still be asked: {'it' if len(by_runs) == 1 else 'each'} costs"
-    return f"{asked} the change itself and {cost} after it, {REPEATS} repetitions of {repeated(campaign)}; apart from that {stands}"
+    return f"{asked} the change itself and {cost} after it: {REPEATS} repetitions of {repeated(campaign)}; apart from that {stands}"
 
 
 def of_model_before(answer: Answer) -> str:

@@ -228,8 +228,8 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
     """Of one effect in several forms: alternatives that look alike in this campaign, or forms that are all needed."""
     forms = ", ".join(c.partition(".")[2].replace("_", " ") for c in effect["candidates"])
     if verdict == SEVERAL:
-        return f"one effect in several forms, each significant beside the others: {forms}"
-    return f"one effect explains the misfit; which of its forms this campaign cannot tell, for they look alike in it: {forms}"
+        return f"in several forms, each significant beside the others: {forms}"
+    return f"it explains the misfit; which of its forms it is this campaign cannot tell, for they look alike in it: {forms}"
 
 
 def added_of(effect: Mapping[str, Any]) -> list[str]:

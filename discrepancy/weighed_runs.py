@@ -79,7 +79,7 @@ def law_of(answer: "Answer") -> RivalLaw:
 
 def apart_text(best: Proposal) -> str:
     """How far two rivals lie apart in an experiment."""
-    return f"they differ there by {chi_text(best.least)} in chi-square, of which {ENOUGH:g} is enough"
+    return f"they differ there by {chi_text(best.least)} in chi-square, where {ENOUGH:g} is enough"
 
 
 def measured_in(proposal: Proposal, campaign: Campaign) -> list[str]:

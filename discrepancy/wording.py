@@ -22,6 +22,8 @@ NEARLY_ALL, ALL_BUT_ALL = 0.995, 0.9999
 # What is named leaves something.
 LEAVES = (INCOMPLETE, STOPPED, UNKNOWN)
 MOST_NAMED = 3
+# Of what was turned down as many stand there at once.
+NEAREST = 6
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
 

@@ -57,6 +57,7 @@ class Unit:
     ``fault_reach`` is how many of the leading cells a step that returns a fault may have
     changed (None: all of the state).  An FMU keeps a copy of these during each step.
     ``cautions`` are said once when the integer output of the name is no longer 0.
+    ``refusal(code, records)`` says of some status codes more than their text can, which an FMU in any language has; empty of others.
     ``pause`` names two states of a unit whose steps may end before their time: where they may (0 nowhere, 1 where a
     judgement changes, 2 after every part), which the importer's wishes decide, and how much of the step was done (0: all) [s].
     """
@@ -68,6 +69,7 @@ class Unit:
     fault_reach: int | None = None
     cautions: Mapping[str, str] = field(default_factory=dict)
     pause: tuple[str, str] | None = None
+    refusal: Callable[[int, Records], str] = field(default=lambda code, records: "")
 
     @property
     def guarded_cells(self) -> int:

@@ -272,7 +272,7 @@ class InProcess(Component):
     def exit_initialisation(self) -> None:
         code = self.entry_points[0]()
         if code != 0:
-            raise InputFault(f"{self.name}: {self.unit.fault_text(code, self.records, 0.0)}")
+            raise InputFault(self.unit.refusal(code, self.records) or f"{self.name}: {self.unit.fault_text(code, self.records, 0.0)}")
 
     def step(self, time: float, duration: float) -> None:
         code = self.entry_points[1](time, duration)

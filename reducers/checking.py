@@ -10,7 +10,7 @@ from fmu_src.units import conversion
 from reducers.completion.again import STIFF, command, doubts_again, given_again, in_units, outdated, sources_of
 from reducers.completion.complete import COMPLETED
 from reducers.completion.dials import ASSUMED
-from reducers.completion.geometry import NOWHERE, PartsFault, check_drive, check_geometry, largest_pin
+from reducers.completion.geometry import check_geometry
 from reducers.completion.given import GAP, SHIFT, SUN, Given
 from reducers.completion.supports import SUPPORT_ASSUMED, SUPPORT_DIALS
 from reducers.completion.unusual import is_beyond, unusual_alone
@@ -18,6 +18,7 @@ from reducers.completion.unusual import unusual as unusual_in_rules
 from reducers.reducer import Reducer, numbers_of
 from reducers.usual import DERIVED, USUAL, stale
 from rv_plant.gear_stage import total_ratio
+from rv_plant.parts import NOWHERE, PartsFault, check_drive, largest_pin
 
 MM = 1e3
 # Options of the command that completes reducers, and what a file calls the same.
@@ -72,7 +73,7 @@ class Check:
     completing: str = ""
     # Of the doubts those about numbers that were completed from others than the file has now.
     outdated: list[str] = field(default_factory=list)
-    # Of the fault which parts it is about, as ``completion.geometry`` names them.
+    # Of the fault which parts it is about, as ``rv_plant.parts`` names them.
     place: str = NOWHERE
 
     @property

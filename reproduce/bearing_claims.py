@@ -160,7 +160,7 @@ def instantaneous_centre(context: Context) -> Finding:
     turn = turn - turn[0]
     curves = [Curve(f"disc {d + 1}, crank {c + 1}", turn, loads[:, d, c],
                     dash="solid" if d == 0 else "dash") for d in range(2) for c in range(2)]
-    figure = chart("bearing_load", "Load of each needle bearing, RV20E-121", "New parts, rated torque.", curves,
+    figure = chart("bearing_load", "Load of each needle bearing, RV20E-121-rigid", "New parts, rated torque.", curves,
                    "crank against carrier [°]", "load [kN]", 6, 300, x_axis={"dtick": 60},
                    y_axis={"rangemode": "tozero"})
     resultant = s["load_torque"] * (1.0 - 1.0 / 121) / (2.0 * s["eccentricity"] * 40) / 1e3

@@ -5,6 +5,7 @@ command within a minute or two.  ``POSITIONS`` a turn is not: a third of them ma
 deeper, twice as many 0.1 % shallower.
 """
 
+import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
@@ -28,10 +29,10 @@ from studies.meshing_cycle import run_cycle
 from studies.pair import Pair, make_pair
 from studies.solve import ARCSEC, record_turn
 
-BX, RV = "BX-40E", "RV20E-121"
+# Reducers go by their names in the library wherever they are told.  As the two documents have them, on rigid supports and without losses:
+BX, RV = "BX-40E-rigid", "RV20E-121-rigid"
 # The same as soft, as loose and as lossy as real ones.
-REAL_BX, REAL_RV = "RV-40E", "RV-20E"
-LIBRARY = {BX: "BX-40E-rigid", RV: "RV20E-121-rigid", REAL_BX: "BX-40E", REAL_RV: "RV20E-121"}
+REAL_BX, REAL_RV = "BX-40E", "RV20E-121"
 # Yang et al., Mech. Mach. Theory 163 (2021) 104384, as in a public repetition of the paper.
 RV_80E = ("pin.circle_radius=77.5mm", "pin.radius=4mm", "crank.eccentricity=1.5mm")
 MODIFIED = ("disc.equidistant_modification=-13um", "disc.shift_modification=-20um")
@@ -111,11 +112,11 @@ class Context:
         """What ``find`` makes, and of which reducers, as the library calls them; runs that are there already are of the same."""
         self.asked = set()
         found = find(self)
-        return found, tuple(sorted(LIBRARY.get(name, name) for name in self.asked))
+        return found, tuple(sorted(self.asked))
 
     def reducer(self, name: str) -> Reducer:
         """BX and RV as the sources have them, on rigid supports and without losses; REAL_BX and REAL_RV as the library has them."""
-        return self.once(("reducer", name), lambda: self.changed(name, load_reducer(LIBRARY[name])))
+        return self.once(("reducer", name), lambda: self.changed(name, load_reducer(name)))
 
     def changed(self, name: str, reducer: Reducer) -> Reducer:
         """With the other numbers; InputFault for one that it does not have."""
@@ -139,7 +140,7 @@ class Context:
     def altered_in(self, figure: Figure) -> tuple[str, ...]:
         """The changes, with what the reducers had that a figure shows: those that its words name, all where these name none."""
         words = " ".join([figure.title, figure.caption, *(str(trace.get("name", "")) for trace in figure.data)])
-        return self.altered_of([name for name in self.had if name in words] or self.had)
+        return self.altered_of([name for name in self.had if re.search(rf"{re.escape(name)}(?![\w-])", words)] or self.had)
 
     def rv80e(self) -> Reducer:
         """An RV-80E with ratio 153 and three cranks, completed from what is published of one."""

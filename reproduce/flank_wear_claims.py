@@ -47,11 +47,11 @@ def inverted_w(context: Context) -> Finding:
     first = [run.tooth()[:90].sum() > run.tooth()[90:].sum() for run in (way, other, backwards)]
     curves = [tooth_curve("torque one way, 10,000 h", way), tooth_curve("reversing torque, 10,000 h", both)]
     curves += [tooth_curve("torque the other way, 1,000 h", other, dash="dash"),
-               tooth_curve("RV20E-121, modified, one way, 10,000 h", modified, dash="dot")]
+               tooth_curve("RV20E-121-rigid, modified, one way, 10,000 h", modified, dash="dot")]
     curves.append(tooth_curve("one way, only 24 positions a turn", coarse, colour="#98a3af",
                               width=1.2))
     g = way.contacts[0].geometry
-    figure = chart("wear_profile", "Depth along a whole tooth, BX-40E", "Mean of all teeth; turning pins.", curves,
+    figure = chart("wear_profile", "Depth along a whole tooth, BX-40E-rigid", "Mean of all teeth; turning pins.", curves,
                    PHASE + ", 360 next root", "depth [µm]", 12, 340,
                    [(g.inflection, "inflection"), (360.0 - g.inflection, "inflection"), (180.0, "tip")],
                    degrees_axis(360.0))
@@ -95,9 +95,9 @@ def least_at_inflection(context: Context) -> Finding:
         " inflection.")
 def peak_places(context: Context) -> Finding:
     numbers, figures, places = [], [], {}
-    for label, name, texts, start, end in (("BX-40E, ideal", BX, (), None, None),
-                                           ("RV20E-121, ideal", RV, (), 66.0, 56.0),
-                                           ("RV20E-121, modified", RV, MODIFIED, 55.0, (47.0, 50.0))):
+    for label, name, texts, start, end in (("BX-40E-rigid, ideal", BX, (), None, None),
+                                           ("RV20E-121-rigid, ideal", RV, (), 66.0, 56.0),
+                                           ("RV20E-121-rigid, modified", RV, MODIFIED, 55.0, (47.0, 50.0))):
         run = context.life(name, *texts)
         places[label] = hump(run, 1)[0], hump(run)[0]
         numbers += [Number(f"{label}: deepest place in the first {run.hours[1]:.0f} h", "°", places[label][0], None,
@@ -116,7 +116,7 @@ def peak_places(context: Context) -> Finding:
         " grow there. With wear it"
         " moves towards the inflection, because load leaves what is worn. Modification confines the contact and"
         " moves it nearer to the inflection.",
-        numbers, [("beyond the inflection at first", places["BX-40E, ideal"][0] > 50.0),
+        numbers, [("beyond the inflection at first", places["BX-40E-rigid, ideal"][0] > 50.0),
                   ("moves towards the root", all(b < a + 1.0 for a, b in places.values()))], figures=figures,
     )  # fmt: skip
 
@@ -142,7 +142,7 @@ def micro_peaks(context: Context) -> Finding:
         rising.append(any(peaks_inside(row[end]) for end in ends))
         numbers.append(Number(f"{label}: deepest within 6° of root or tip over the deepest", "%", 100.0 * near))
         curves.append(Curve(label, phase, depth / depth.max()))
-    figure = chart("micro_peaks", "Depth over the deepest, RV20E-121", "Mean tooth, loaded flank.", curves, PHASE,
+    figure = chart("micro_peaks", "Depth over the deepest, RV20E-121-rigid", "Mean tooth, loaded flank.", curves, PHASE,
                    "depth / deepest", 12, 280, (), degrees_axis())
     return Finding(
         CONTRADICTED, "No quasi-static case shows them: the force vanishes at root and tip, as its lever does, and"
@@ -168,7 +168,7 @@ def falling_rate(context: Context) -> Finding:
         falls.append(rate[-1] / rate[0])
         numbers += [Number(f"{label}: first rate", "nm/h", rate[0]), Number(f"{label}: last rate", "nm/h", rate[-1])]
         curves.append(Curve(label, 0.5 * (run.hours[1:] + run.hours[:-1]), rate, mode="lines+markers"))
-    figure = chart("wear_rate", "Rate of the deepest flank wear, BX-40E", "", curves, "operating time [h]",
+    figure = chart("wear_rate", "Rate of the deepest flank wear, BX-40E-rigid", "", curves, "operating time [h]",
                    "rate [nm/h]", 6, 300, y_axis={"rangemode": "tozero"})
     return Finding(
         REPRODUCED, "Twice over: the coefficient runs in, and even with a constant one the load leaves the deepest"
@@ -190,7 +190,7 @@ def constant_coefficient(context: Context) -> Finding:
     peaks = [run.tooth().max() / run.tooth().mean() for run in (variable, constant)]
     half = [Curve(c.label, c.x[: c.x.size // 2], c.y[: c.x.size // 2], dash=d) for c,
             d in zip(curves, ("solid", "dash"))]
-    figure = chart("constant", "Shape of the wear profile, BX-40E, 10,000 h", "Depth over its mean.", half, PHASE,
+    figure = chart("constant", "Shape of the wear profile, BX-40E-rigid, 10,000 h", "Depth over its mean.", half, PHASE,
                    "depth / mean depth", 6, 280, (), degrees_axis())
     return Finding(
         CONDITIONAL, "Which model wears deeper is a matter of the constant chosen: with the run-in value at the"

@@ -48,7 +48,7 @@ def sine_law(context: Context) -> Finding:
             curves.append(Curve(label, sine[::7], force[::7] / force.max(), mode="markers"))
     exact, *_ = proportionality(context.contacts(RV, *RIGID_BEARINGS), 10.0 / 9.0)
     numbers.insert(1, Number("the same against sin(α)^(10/9)", "1", exact, None, 1.0, 0.001))
-    figure = chart("sine_law", "Force against sin α, RV20E-121", "All loaded contacts of a crank turn, over the"
+    figure = chart("sine_law", "Force against sin α, RV20E-121-rigid", "All loaded contacts of a crank turn, over the"
                    " largest force.",
                    curves, "sin α", "F / F max", 12, 320)
     return Finding(
@@ -105,7 +105,7 @@ def profile_error(context: Context) -> Finding:
         CONTRADICTED, "Wear of either side opens the gap: e = h_disc + h_pin. With the printed '-' wear of the pin"
         " would press"
         " teeth together, and equally worn sides would show none.",
-        [Number("BX-40E, standing pins, 10,000 h: deepest on the mean tooth", "µm", 1e6 * disc),
+        [Number("BX-40E-rigid, standing pins, 10,000 h: deepest on the mean tooth", "µm", 1e6 * disc),
          Number("deepest on the mean pin", "µm", 1e6 * pin),
          Number("their gap, if both meet", "µm", 1e6 * (disc + pin), 1e6 * printed.printed_profile_error(disc, pin)),
          Number("largest gap at a contact in the run", "µm", 1e6 * error)],
@@ -166,8 +166,8 @@ def moment_balance(context: Context) -> Finding:
 @states("T15", TOOTH, "Loaded teeth with wear", "With increasing cycles the number of teeth sharing the load"
         " slightly decreases.")
 def teeth_with_wear(context: Context) -> Finding:
-    runs = {"BX-40E, ideal": (context.life(BX), None), "RV20E-121, ideal": (context.life(RV), (18.4, 19.3)),
-            "RV20E-121, modified": (context.life(RV, *MODIFIED), (7.9, 13.6))}
+    runs = {"BX-40E-rigid, ideal": (context.life(BX), None), "RV20E-121-rigid, ideal": (context.life(RV), (18.4, 19.3)),
+            "RV20E-121-rigid, modified": (context.life(RV, *MODIFIED), (7.9, 13.6))}
     numbers, curves, ends = [], [], {}
     for label, (run, audited) in runs.items():
         teeth = run.figure("mean_loaded_teeth")
@@ -181,8 +181,8 @@ def teeth_with_wear(context: Context) -> Finding:
         CONTRADICTED, "Wear fits modified teeth to the pins, so that more of them touch; on an ideal profile the"
         " number hardly"
         " moves. Right only for the small dip that an ideal profile may show.", numbers,
-        [("it grows for the modified profile", ends["RV20E-121, modified"][1] > 1.3 * ends["RV20E-121, modified"][0]),
-         ("it stays for the ideal one", abs(np.diff(ends["RV20E-121, ideal"])[0]) < 1.5)], figures=[figure],
+        [("it grows for the modified profile", ends["RV20E-121-rigid, modified"][1] > 1.3 * ends["RV20E-121-rigid, modified"][0]),
+         ("it stays for the ideal one", abs(np.diff(ends["RV20E-121-rigid, ideal"])[0]) < 1.5)], figures=[figure],
     )  # fmt: skip
 
 
@@ -190,9 +190,9 @@ def teeth_with_wear(context: Context) -> Finding:
         " contacting teeth.")
 def force_with_wear(context: Context) -> Finding:
     numbers, grounds, curves = [], [], []
-    for label, name, texts, audited in (("RV20E-121, ideal", RV, (), (312, 595)),
-                                        ("RV20E-121, modified", RV, MODIFIED, (501, 659)),
-                                        ("BX-40E, ideal", BX, (), None)):
+    for label, name, texts, audited in (("RV20E-121-rigid, ideal", RV, (), (312, 595)),
+                                        ("RV20E-121-rigid, modified", RV, MODIFIED, (501, 659)),
+                                        ("BX-40E-rigid, ideal", BX, (), None)):
         run = context.life(name, *texts)
         peak = np.array([c.force.max() for c in run.contacts])
         mean = np.array([c.force[c.force > 0].mean() for c in run.contacts])

@@ -108,7 +108,7 @@ def profile_sign(context: Context) -> Finding:
     curves = [Curve(label, MM * z.real, MM * z.imag, dash=dash, width=1.3) for label, z, dash in (
         ("true envelope", profile(s, phase), "solid"), ("as printed", np.conj(printed.printed_profile(*arguments)),
             "solid"))]
-    figure = picture("profile", "BX-40E disc", "The printed equation against the envelope of the pins.",
+    figure = picture("profile", "BX-40E-rigid disc", "The printed equation against the envelope of the pins.",
                      [Curve(c.label, c.x[::3], c.y[::3], c.colour, c.dash, c.mode, c.width) for c in curves], 12, 430)
     return Finding(
         CONTRADICTED, "With '+' in the last bracket the equation is exact; with the printed '-' the curve leaves the"
@@ -226,9 +226,9 @@ def half_the_teeth(context: Context) -> Finding:
     return Finding(
         CONDITIONAL, "An ideal profile loads all teeth of one side. With the modification that real discs have, far"
         " fewer touch until wear has fitted them.",
-        [Number("BX-40E, ideal profile: loaded teeth of 40", "1", ideal),
-         Number("RV20E-121, ideal profile", "1", rv, None, 18.4),
-         Number("RV20E-121, 20 µm shift and 13 µm equidistant", "1", modified, None, 7.9)],
+        [Number("BX-40E-rigid, ideal profile: loaded teeth of 40", "1", ideal),
+         Number("RV20E-121-rigid, ideal profile", "1", rv, None, 18.4),
+         Number("RV20E-121-rigid, 20 µm shift and 13 µm equidistant", "1", modified, None, 7.9)],
         [("about half for the ideal profile", 17.0 < ideal < 21.0),
          ("far fewer for the modified one", modified < 12.0)],
         "ideal profile, without modification or pin errors",

@@ -50,7 +50,7 @@ def lost_motion(context: Context) -> Finding:
     grown = at(lost, 1550.0) - lost[0]
     lives = [growth_of(life) for life in tested_lives(context)]
     ends = [span_of(values) for values in zip(*((new, later, 100.0 * later / new) for new, later, _, _ in lives))]
-    figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121", "Torque one way during life; lost motion between +3 and -3 % of it.",
+    figure = chart("lost_motion", "Lost motion and transmission error, RV20E-121-rigid", "Torque one way during life; lost motion between +3 and -3 % of it.",
                    [Curve("lost motion", run.hours, lost, mode="lines+markers"),
                     Curve("transmission error of the second stage, peak to peak", run.hours, error, mode="lines+markers")],
                     "operating time [h]", "[arcsec]", 6, 300, [(1550.0, "1,550 h")], y_axis={"rangemode": "tozero"})
@@ -205,7 +205,7 @@ def one_hump(context: Context) -> Finding:
         numbers += [Number(f"{label}: depth in 300 h", "µm", deep[label]),
                     Number(f"{label}: region deeper than 0.2 µm", "°", wide[label])]
         curves.append(Curve(label, phase, 1e6 * depth))
-    figure = chart("load_and_speed", "Flank wear in 300 h, RV20E-121", "", curves, PHASE, "depth [µm]", 6, 280, (),
+    figure = chart("load_and_speed", "Flank wear in 300 h, RV20E-121-rigid", "", curves, PHASE, "depth [µm]", 6, 280, (),
                    degrees_axis())
     one = all(humps(run) == 1 for run in runs.values())
     return Finding(

@@ -60,9 +60,9 @@ def no_load(context: Context) -> Finding:
         numbers += [held(f"{name}, running at 15 rpm, 20 °C", "N m", cold[name], (0.1, 0.6)), Number(f"{name}, at 40 °C", "N m", warm[name]),
                     Number(f"{name}, starting", "N m", input_torque(reducer, 0.0, STARTING, RATIO))]
     return Finding(
-        CONDITIONAL, "RV-40E within what is published, RV-20E a little below its lower end, because efficiency at a tenth of the load leaves no more. Of"
+        CONDITIONAL, "BX-40E within what is published, RV20E-121 a little below its lower end, because efficiency at a tenth of the load leaves no more. Of"
         " preload nothing is known.", numbers,
-        [("RV-40E within", 0.1 <= cold[REAL_BX] <= 0.6), ("RV-20E less than a tenth below the lower end", 0.09 <= cold[REAL_RV] <= 0.6),
+        [("BX-40E within", 0.1 <= cold[REAL_BX] <= 0.6), ("RV20E-121 less than a tenth below the lower end", 0.09 <= cold[REAL_RV] <= 0.6),
          ("less when warm", all(warm[name] < cold[name] for name in RATED))],
         "seals and grease each 3.5 % of the rated input torque",
     )  # fmt: skip
@@ -76,8 +76,8 @@ def rover(context: Context) -> Finding:
     return Finding(
         CONDITIONAL, "Another drive; an RV-20E comes to the same peak and rises in the same way. That efficiency itself runs in is not modelled: friction"
         " here is constant, wear alone runs in.",
-        [held("RV-20E, largest over load", "%", max(found), 81.0, losses(context, REAL_RV)),
-         *(Number(f"RV-20E at {100 * share:.0f} % of the rated torque", "%", value) for share, value in zip(SHARES, found)),
+        [held("RV20E-121, largest over load", "%", max(found), 81.0, losses(context, REAL_RV)),
+         *(Number(f"RV20E-121 at {100 * share:.0f} % of the rated torque", "%", value) for share, value in zip(SHARES, found)),
          held("7.6 million turns of the cranks at rated speed of an RV-40E", "h", travelled, 300.0)],
         [("peak within four points", abs(max(found) - 81.0) < 4.0), ("rises with torque", bool(np.all(np.diff(found) > 0.0)))],
         "after their burn-in",
@@ -94,7 +94,7 @@ def another_maker(context: Context) -> Finding:
         CONTRADICTED, "Backlash is as here. Efficiency of 85 % and more wants friction at the lower end of its range; 95 % is out of reach of sliding on"
         " pins, bearings and seals together.",
         [*(held(f"{name}, efficiency at rated"
-            " load", "%", value, (85.0, 95.0), losses(context, name)) for name, value in found.items()), Number("RV-40E, friction of mesh and bearings at"
+            " load", "%", value, (85.0, 95.0), losses(context, name)) for name, value in found.items()), Number("BX-40E, friction of mesh and bearings at"
             " their lower ends", "%", best),
          *(held(f"{name}, lost motion", "arcmin", value, (0.0, 1.0), loop_spans(context, name)["lost_motion"]) for name, value in lost.items())],
         [("backlash is met", max(lost.values()) < 1.0), ("95 % is not", best < 92.0), ("85 % is, with little friction", best > 85.0)],
@@ -168,7 +168,7 @@ def definition(context: Context) -> Finding:
     found = loop(context.reducer(REAL_RV))
     return Finding(
         REPRODUCED, "The same definition: ±3 % of the rated torque, middle line. Read on the way up alone, friction would go with it.",
-        [held("share of the rated torque here", "%", 100.0 * LOST_MOTION_SHARE, 3.0), Number("RV-20E, middle line", "arcmin", found.lost_motion_arcmin),
+        [held("share of the rated torque here", "%", 100.0 * LOST_MOTION_SHARE, 3.0), Number("RV20E-121, middle line", "arcmin", found.lost_motion_arcmin),
          Number("width of its loop at no torque", "arcmin", found.width_arcmin)],
         [("three per cent", LOST_MOTION_SHARE == 0.03), ("the loop is open", found.width_arcmin > 0.1)],
     )  # fmt: skip
@@ -194,7 +194,7 @@ def bearing_loads(context: Context) -> Finding:
     return Finding(
         NOT_TESTABLE, "Its equations are those used here, discs rigid and bearings elastic; its figures are not in what was read. Supports that wear are"
         " missing here (L07).",
-        [Number("RV-20E, largest force on a needle roller", "N", float(force.max())), Number("mean over those that carry", "N",
+        [Number("RV20E-121, largest force on a needle roller", "N", float(force.max())), Number("mean over those that carry", "N",
             float(force[force > 0.0].mean()))],
         [("some rollers carry nothing", bool((force == 0.0).any()))],
     )  # fmt: skip

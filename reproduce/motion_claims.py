@@ -78,7 +78,7 @@ def inertia(context: Context) -> Finding:
     quicker = swing(context, light, MORE_ACCELERATION * ACCELERATION) / swing(context, light)
     theirs = [span_of(after / before for before, after in pairs) for pairs in (INERTIA, QUICKER)]
     time = 1e3 * STEP * np.arange(round(SECONDS / STEP))
-    figure = chart("error_in_motion", "Transmission error of an RV-40E while the input gets faster", "Perfect parts, rated torque, bodies in motion.",
+    figure = chart("error_in_motion", "Transmission error of BX-40E while the input gets faster", "Perfect parts, rated torque, bodies in motion.",
                    [Curve(label, time, error_in_motion(context, value, ACCELERATION)) for label, value in
                     (("no load inertia", NONE), (f"{heavy:.3g} kg m²", heavy), (f"{MORE_INERTIA * heavy:.3g} kg m²", MORE_INERTIA * heavy))],
                    "time [ms]", "[arcmin]", 6, 280)  # fmt: skip

@@ -46,7 +46,7 @@ def pin_pattern(context: Context) -> Finding:
     angle = 180.0 * (np.arange(pin.size) + 0.5) / pin.size - 90.0
     turning = np.degrees(np.arcsin(run.contacts[0].geometry.k1))
     place = abs(float(angle[pin.argmax()]))
-    figure = chart("pin_pattern", "Depth on a standing pin, BX-40E, 10,000 h", "Mean of all pins; 0 faces the ring's"
+    figure = chart("pin_pattern", "Depth on a standing pin, BX-40E-rigid, 10,000 h", "Mean of all pins; 0 faces the ring's"
                    " centre.", [Curve("standing pin", angle, UM * pin)],
                    "angle on the pin [°]", "depth [µm]", 6, 280, [(-turning, "contact turns back"), (turning, "")],
                    {"range": [-90, 90], "dtick": 30})

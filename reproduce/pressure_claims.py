@@ -86,8 +86,8 @@ def valley(context: Context) -> Finding:
                                   100.0 * share, None, (72.0, 80.0) if texts else None, 0.01))
             numbers.append(Number(f"{name}, {label}: 15° nearer to the root", "%", 100.0 * before))
     g = context.contacts(BX).geometry
-    numbers += [Number("BX-40E: inflection", "°", g.inflection, None, 40.3, 0.005),
-                Number("BX-40E: largest pressure angle", "°", g.steepest, None, 41.6, 0.005)]
+    numbers += [Number("BX-40E-rigid: inflection", "°", g.inflection, None, 40.3, 0.005),
+                Number("BX-40E-rigid: largest pressure angle", "°", g.steepest, None, 41.6, 0.005)]
     return Finding(
         CONTRADICTED, "The largest force sits on the inflection (the two phases are a degree apart), and the"
         " pressure rises through it without a"
@@ -104,7 +104,7 @@ def flat_contact(context: Context) -> Finding:
     degrees = np.linspace(0.0, 180.0, 181)
     radius = 1e3 / g.curvature(degrees)
     found = 1e3 / float(g.curvature([g.inflection])[0])
-    figure = chart("equivalent_radius", "Equivalent radius of flank and pin, BX-40E", "Dotted: the pin's radius.",
+    figure = chart("equivalent_radius", "Equivalent radius of flank and pin, BX-40E-rigid", "Dotted: the pin's radius.",
                    [Curve("rho_eq", degrees, radius),
                     Curve("pin radius", degrees[[0, -1]], np.full(2, 1e3 * g.radius), "#98a3af", "dot")], PHASE,
                     "rho_eq [mm]",
@@ -135,7 +135,7 @@ def zones(context: Context) -> Finding:
         numbers += [Number(f"{label}: new", "MPa", row[0]), Number(f"{label}: after 10,000 h", "MPa", row[-1])]
     root, inflection, flank, tip = over.values()
     shown = [0, run.at(500.0), run.at(2000.0), len(run.hours) - 1]
-    by_hour = chart("pressure_hours", "Pressure along the tooth over the hours, BX-40E",
+    by_hour = chart("pressure_hours", "Pressure along the tooth over the hours, BX-40E-rigid",
                     "Curvature of the unworn flank.",
                     [Curve(f"{run.hours[i]:,.0f} h", MIDDLES, MPA * run.contacts[i].pressure_along, c) for i,
                      c in zip(shown, ("#a8cbe8", "#4488c2", "#22669f", "#062a4e"))],

@@ -57,8 +57,8 @@ def twenty_degrees(context: Context) -> Finding:
     return Finding(
         NOT_TESTABLE, "Which reducer it is, its errors and its forces are not in what is public: how far off a computation of it is cannot be said. Four"
             " RV-20E with errors of good parts have this size.",
-        [held("RV-20E of good parts; theirs measured", "arcsec", typical, 25.5, (low, high)), held("theirs computed", "arcsec", typical, 23.32, (low, high)),
-         Number("RV-20E, twice as far off, least of four", "arcsec", wide[0]), Number("largest of these", "arcsec", wide[1]),
+        [held("RV20E-121 of good parts; theirs measured", "arcsec", typical, 25.5, (low, high)), held("theirs computed", "arcsec", typical, 23.32, (low, high)),
+         Number("RV20E-121, twice as far off, least of four", "arcsec", wide[0]), Number("largest of these", "arcsec", wide[1]),
          held("bearing force off by at most", "%", None, 8.89), held("transmission error off by at most", "%", None, 6.31)],
         [("their figures lie among reducers of good parts", low < 23.32 < 25.5 < high)],
     )  # fmt: skip
@@ -132,7 +132,7 @@ def modified_wear(context: Context) -> Finding:
     runs = {"ideal profile": context.life(RV), "modified profile": context.life(RV, *MODIFIED)}
     depths = {label: 1e6 * hump(run)[1] for label, run in runs.items()}
     curves = [Curve(label, run.hours, run.figure("disc_flank_um")) for label, run in runs.items()]
-    figure = chart("modified_wear", "Deepest flank, RV20E-121", "", curves, "operating time [h]", "depth [µm]", 6, 280)
+    figure = chart("modified_wear", "Deepest flank, RV20E-121-rigid", "", curves, "operating time [h]", "depth [µm]", 6, 280)
     return Finding(
         REPRODUCED, "A modified profile has fewer loaded teeth and wears deeper; their numbers are for another drive and another coefficient.",
         [Number(f"{label}: flank after 10,000 h", "µm", value) for label, value in depths.items()],

@@ -78,7 +78,7 @@ def segments(context: Context) -> Finding:
         curves.append(Curve(f"{side}, 2,000 h segments", np.linspace(0, 10_000, 6),
                             np.array([0.0] + [s[name] for s in steps]), ("#d55e00", "#e0a000")[i], "dot",
                             "lines+markers"))
-    figure = chart("segments", "Raceway wear over the hours, RV20E-121", "Deepest place.", curves,
+    figure = chart("segments", "Raceway wear over the hours, RV20E-121-rigid", "Deepest place.", curves,
                    "operating time [h]", "depth [µm]", 6, 300)
     off = {side: 100.0 * (b / a - 1.0) for side, (a, b) in ends.items()}
     return Finding(
@@ -98,7 +98,7 @@ def inner_side(context: Context) -> Finding:
     wide = context.life(RV, "bearing.clearance=10um", tolerance=0.05)
     row = run.life.surfaces[-1]["inner_race_wear"][0, 0] * 1e6
     angle, opposite = degrees_of(run, row), 100.0 * across(run, row) / row.max()
-    figure = polar("inner_race", "Inner raceway, RV20E-121, 10,000 h", "Depth [µm] over the angle from the eccentric"
+    figure = polar("inner_race", "Inner raceway, RV20E-121-rigid, 10,000 h", "Depth [µm] over the angle from the eccentric"
                    " direction, the way the cranks turn.", [Curve("inner raceway", *angle, "#d55e00")])
     return Finding(
         REPRODUCED, "The pins' resultant T/(2 e z_c) goes through the pitch point, at right angles to the"
@@ -133,7 +133,7 @@ def outer_side(context: Context) -> Finding:
     opposite = 100.0 * across(run, row) / row.max()
     turned = context.life(RV, "output.load_torque=-167", hours=300.0, tolerance=0.1)
     other = float(turned.figure("outer_peak_deg")[-1])
-    figure = polar("outer_race", "Outer raceway, RV20E-121, 10,000 h", "Depth [µm] over the angle from the outward"
+    figure = polar("outer_race", "Outer raceway, RV20E-121-rigid, 10,000 h", "Depth [µm] over the angle from the outward"
                    " radial, the way the cranks turn.", [Curve("outer raceway", *degrees_of(run, row), "#e0a000")])
     return Finding(
         REPRODUCED, "The disc's moment loads its holes with the couple T/(4 a0), fixed in the disc: along the circle"

@@ -28,7 +28,7 @@ def feedback(context: Context) -> Finding:
     return Finding(
         REPRODUCED, "A carrier that falls behind turns its planets on the sun, and the cranks with them: at the input the lag of the second stage is that"
             " much smaller.",
-        [held("RV-80E by its teeth (10 and 38, 39 lobes, 40 pins)", "%", share, 3.0), Number("RV20E-121, lag of the second stage over the error at the"
+        [held("RV-80E by its teeth (10 and 38, 39 lobes, 40 pins)", "%", share, 3.0), Number("RV20E-121-rigid, lag of the second stage over the error at the"
             " input", "%", ours)],
         [("about as theirs", 2.5 < share < 3.5), ("the plant does it", 2.5 < ours < 4.0)],
     )  # fmt: skip
@@ -52,7 +52,7 @@ def chosen_errors(context: Context) -> Finding:
         CONDITIONAL, "Theirs chooses sizes within tolerances, by finite elements without clearance or friction; which is not public. Here eight errors of the"
             " cranks keep their size and choose their signs: they cancel, because throws of one disc pull against those of the other.",
         [held("error taken away by the best signs, over the median of all", "%", lowered, 52.48),
-         Number("RV-40E, median of all signs, peak to peak", "arcsec", float(np.median(found))), Number("best signs, computed whole", "arcsec", whole),
+         Number("BX-40E, median of all signs, peak to peak", "arcsec", float(np.median(found))), Number("best signs, computed whole", "arcsec", whole),
          Number("perfect parts", "arcsec", float(np.ptp(still)))],
         [("as much or more can be taken away", lowered > 52.48), ("errors add up", abs(whole - float(found.min())) < 0.15 * float(np.median(found)))],
         "signs of eight errors of the cranks",
@@ -64,12 +64,12 @@ def chosen_errors(context: Context) -> Finding:
 def data_sheet(context: Context) -> Finding:
     found, spans = loop(context.reducer(REAL_BX)), loop_spans(context, REAL_BX)
     return Finding(
-        REPRODUCED, "The compact successor of the RV-40E, of the same rated torque: the library's RV-40E stands within a tenth of its stiffness and below its"
+        REPRODUCED, "The compact successor of the RV-40E, of the same rated torque: the library's BX-40E stands within a tenth of its stiffness and below its"
             " limits.",
-        [held("RV-40E, rated torque", "N m", RATED[REAL_BX], 412.0), held("RV-40E, stiffness", "N m/arcmin", found.stiffness_Nm_per_arcmin, 113.0,
+        [held("BX-40E, rated torque", "N m", RATED[REAL_BX], 412.0), held("BX-40E, stiffness", "N m/arcmin", found.stiffness_Nm_per_arcmin, 113.0,
             spans["stiffness"]),
-         held("RV-40E, lost motion", "arcmin", found.lost_motion_arcmin, (0.0, 1.0), spans["lost_motion"]),
-         held("RV-40E, width of the loop", "arcmin", found.width_arcmin, (0.0, 1.0))],
+         held("BX-40E, lost motion", "arcmin", found.lost_motion_arcmin, (0.0, 1.0), spans["lost_motion"]),
+         held("BX-40E, width of the loop", "arcmin", found.width_arcmin, (0.0, 1.0))],
         [("stiffness within a tenth", abs(found.stiffness_Nm_per_arcmin / 113.0 - 1.0) < 0.1), ("lost motion and loop below"
             " 1", max(found.lost_motion_arcmin, found.width_arcmin) < 1.0)],
     )  # fmt: skip
@@ -99,9 +99,9 @@ def typical_efficiency(context: Context) -> Finding:
     return Finding(
         CONDITIONAL, "Ours has ratio 121: its input turns half as fast again as theirs of 81, and drags more. 85 % is reached where friction and drag"
         " are all at their lower ends, not in the middle of their ranges.",
-        [held("RV-20E, rated torque at 15"
-            " rpm", "%", ours, (85.0, 100.0), span), held("RV-20E, lost motion", "arcmin", found.lost_motion_arcmin, (0.0, 1.0), lost),
-         Number("RV-20E, friction and drag at their lower ends", "%", best)],
+        [held("RV20E-121, rated torque at 15"
+            " rpm", "%", ours, (85.0, 100.0), span), held("RV20E-121, lost motion", "arcmin", found.lost_motion_arcmin, (0.0, 1.0), lost),
+         Number("RV20E-121, friction and drag at their lower ends", "%", best)],
         [("within three points", 82.0 < ours < 85.0), ("above it with all at their lower"
             " ends", best > 85.0), ("lost motion below 1", found.lost_motion_arcmin < 1.0)],
         "friction and drag towards the lower ends of their ranges",
@@ -115,7 +115,7 @@ def load_and_speed(context: Context) -> Finding:
     loads = {share: efficiency(context, REAL_RV, share) for share in (0.25, 0.5, 1.0)}
     return Finding(
         REPRODUCED, "Drag of seals and grease is a smaller share of a larger load; grease drags more when it is sheared faster.",
-        [*(Number(f"RV-20E, rated torque, {rpm:g} rpm", "%", value) for rpm, value in speeds.items()),
-         *(Number(f"RV-20E, {100 * share:g} % of it, {RPM:g} rpm", "%", value) for share, value in loads.items()), Number("ratio", "1", RATIO)],
+        [*(Number(f"RV20E-121, rated torque, {rpm:g} rpm", "%", value) for rpm, value in speeds.items()),
+         *(Number(f"RV20E-121, {100 * share:g} % of it, {RPM:g} rpm", "%", value) for share, value in loads.items()), Number("ratio", "1", RATIO)],
         [("falls with speed", bool(np.all(np.diff(list(speeds.values())) < 0.0))), ("rises with load", bool(np.all(np.diff(list(loads.values())) > 0.0)))],
     )  # fmt: skip

@@ -83,8 +83,8 @@ def grades(context: Context) -> Finding:
     }  # fmt: skip
     spans = loop_spans(context, REAL_BX)
     graded = [loop(reducer, *part_errors(reducer, 1, times), "bearing.clearance=0.3um") for times in PRECISION]
-    numbers = [held("RV-40E: stiffness", "N m/arcmin", found.stiffness_Nm_per_arcmin, (GRADES[-1][0], GRADES[0][0]), spans["stiffness"]),
-               held("RV-40E: lost motion", "arcmin", found.lost_motion_arcmin, (GRADES[0][1], GRADES[-1][1]), spans["lost_motion"])]
+    numbers = [held("BX-40E: stiffness", "N m/arcmin", found.stiffness_Nm_per_arcmin, (GRADES[-1][0], GRADES[0][0]), spans["stiffness"]),
+               held("BX-40E: lost motion", "arcmin", found.lost_motion_arcmin, (GRADES[0][1], GRADES[-1][1]), spans["lost_motion"])]
     for name, one, (stiffness, lost) in zip(("high", "moderate", "low"), graded, GRADES):
         numbers += [held(f"{name} precision, clearance 0.3 µm: stiffness", "N m/arcmin", one.stiffness_Nm_per_arcmin, stiffness),
                     held(f"{name} precision, clearance 0.3 µm: lost motion", "arcmin", one.lost_motion_arcmin, lost)]
@@ -120,7 +120,7 @@ def dynamic_stiffness(context: Context) -> Finding:
     return Finding(
         REPRODUCED, "Held, friction helps the springs on the way up; running, it shows in the input's torque and not in the angle: an eighth less"
         " stiffness. Over the cranks' angle the contacts' stiffness changes by little.",
-        [Number("RV-20E, loop with the input held", "N m/arcmin", held), Number("RV-20E, running", "N m/arcmin", running),
+        [Number("RV20E-121, loop with the input held", "N m/arcmin", held), Number("RV20E-121, running", "N m/arcmin", running),
          Number("contacts alone, least over a turn of the cranks", "N m/arcmin", min(by_angle)), Number("largest", "N m/arcmin", max(by_angle))],
         [("running is softer", running < 0.95 * held), ("the angle matters less than friction", max(by_angle) / min(by_angle) < held / running)],
     )  # fmt: skip

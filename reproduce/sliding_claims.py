@@ -37,7 +37,7 @@ def sliding_speed(context: Context) -> Finding:
     true = MM * g.sliding(degrees)
     wrong = MM * printed.printed_sliding_speed_signed(np.radians(degrees), g.eccentricity, g.lobes + 1, g.k1)
     speed = abs(context.pair(BX).plant.get("crank_speed"))
-    figure = chart("sliding_speed", "Sliding per radian of the crank, BX-40E", "",
+    figure = chart("sliding_speed", "Sliding per radian of the crank, BX-40E-rigid", "",
                    [Curve("right: (R_p sqrt(S) - r_rp)/Z_c", degrees, true),
                     Curve("as printed", degrees, wrong, dash="dash")], PHASE, "v_s/ω [mm/rad]", 6, 300,
                    [(g.inflection, "inflection")], degrees_axis())
@@ -68,7 +68,7 @@ def sliding_shape(context: Context) -> Finding:
     turns = int((np.diff(np.sign(np.diff(smooth(points[loaded])))) != 0).sum())
     whole = np.concatenate((MIDDLES, 360.0 - MIDDLES[::-1]))
     both = np.concatenate((points, points[::-1]))
-    figure = chart("sliding_distance", "Sliding length of a point of the flank per pass, BX-40E",
+    figure = chart("sliding_distance", "Sliding length of a point of the flank per pass, BX-40E-rigid",
                    "2 a_H v_s/v_c. Loaded on both flanks (torque both ways) the whole tooth shows two humps with the"
                    " valley at the tip.",
                    [Curve("one flank loaded", MIDDLES, points, width=2.6),
@@ -117,7 +117,7 @@ def sensitivity(context: Context) -> Finding:
     bend = g.curvature(MIDDLES) - 1.0 / g.radius
     kinematic = 1e2 * float(np.abs(bend[worn] * h[worn]).max())
     by_load = 1e2 * float(np.abs(after / before - 1.0)[worn].max())
-    figure = chart("sensitivity", f"Sliding length gained per depth worn, BX-40E, first {run.hours[later]:.0f} h",
+    figure = chart("sensitivity", f"Sliding length gained per depth worn, BX-40E-rigid, first {run.hours[later]:.0f} h",
                    "Change of 2 a_H v_s/v_c at a phase over the depth worn there; where at least a tenth of the"
                    " deepest wear is.",
                    [Curve("zeta", MIDDLES[worn], zeta[worn])], PHASE, "zeta [1]", 6, 300,

@@ -57,16 +57,16 @@ def orders(context: Context) -> Finding:
             found[label] = amplitude(lag, order)
             numbers.append(Number(f"{label}: order {order}", "arcsec", found[label], None, audited))
             curves.append(Curve(label, np.arange(1, 101), spectrum[1:101]))
-    figure = chart("orders", "Transmission error by order of the output, RV20E-121",
+    figure = chart("orders", "Transmission error by order of the output, RV20E-121-rigid",
                    "Second stage, rated torque, 2.5 µm clearance.", curves, "order", "amplitude [arcsec]", 12, 300)
     reducer = context.reducer(REAL_RV)
     first = {part: transmission_error(reducer, [f"effects.first_stage_error.{part}_runout=10um"]) for part in ("planet", "sun")}
     planet, sun, still = amplitude(first["planet"], 40), amplitude(first["sun"], 120), amplitude(transmission_error(reducer), 40)
     errors = part_errors(reducer, 1)
     ways = [peak_to_peak(reducer, [*errors, f"input.speed={rpm}rpm", f"output.load_torque={torque}"]) for rpm, torque in ((30, 167), (-30, -167))]
-    numbers += [Number("RV-20E, run-out of a planet 10 µm: order 40", "arcsec", planet), Number("run-out of the sun 10 µm: order 120 at the"
+    numbers += [Number("RV20E-121, run-out of a planet 10 µm: order 40", "arcsec", planet), Number("run-out of the sun 10 µm: order 120 at the"
         " output", "arcsec", sun),
-                Number("RV-20E of good parts at 30 rpm input, one way, peak to peak", "arcsec", ways[0]), Number("the other way", "arcsec", ways[1])]
+                Number("RV20E-121 of good parts at 30 rpm input, one way, peak to peak", "arcsec", ways[0]), Number("the other way", "arcsec", ways[1])]
     return Finding(
         REPRODUCED, "Cranks, discs and pins leave the orders they should (40, 78, 80), a planet off centre that of its turns (40). A sun off centre moves"
             " load between the cranks at 120 and leaves next to nothing at the output, planets being evenly spread. At 30 rpm nothing is dynamic; both ways"
@@ -86,7 +86,7 @@ def initial_error(context: Context) -> Finding:
     return Finding(
         NOT_TESTABLE, "Clearance and part errors of that reducer are unknown; four RV-20E of good parts, single errors of a few micrometres or"
         " 10 µm of clearance give this size.",
-        [held("RV-20E of good parts, peak to"
+        [held("RV20E-121 of good parts, peak to"
             " peak", "arcsec", float(np.median(good)), 22.91, span_of(good))] + [Number(f"peak to peak, {label}", "arcsec", v) for label,
          v in values.items()] + [Number("peak to peak, no errors, 10 µm clearance", "arcsec", wide, None, 24.0)],
         [("perfect parts stay below it", values["none"] < 22.91), ("good parts have it", min(good) < 22.91 < max(good))],
@@ -102,8 +102,8 @@ def elastic_share(context: Context) -> Finding:
     modified = float(np.ptp(context.output_turn(RV, *errors, *MODIFIED)))
     share = 100.0 * (full - light) / full
     return Finding(
-        NOT_TESTABLE, "Their unit and its errors are unknown. Defined as the part that vanishes with the load (167 against 1.67 N m) for the RV20E-121 with"
-        " some part errors: load averages them over more teeth, the error is larger at light load, so that the elastic part is negative; and fewer loaded"
+        NOT_TESTABLE, "Their unit and its errors are unknown. Defined as the part that vanishes with the load (167 against 1.67 N m) for the RV20E-121-rigid"
+        " with some part errors: load averages them over more teeth, the error is larger at light load, so that the elastic part is negative; and fewer loaded"
         " teeth make the modified profile no better. It may be right for a unit whose error comes from windup, or from a profile that modification corrects.",
         [Number("peak to peak, rated torque", "arcsec", full), Number("peak to peak, 1 % of it", "arcsec", light),
          held("elastic share", "%", share, 25.28),
@@ -228,5 +228,5 @@ def catalogue_efficiency(context: Context) -> Finding:
         [("no loss without friction", all(abs(v - 100.0) < 0.1 for v in ideal)),
          ("80 to 90 % at rated load", all(80.0 <= v <= 90.0 for v in rated)),
          ("50 to 60 % at a tenth", all(50.0 <= v <= 60.0 for v in tenth))],
-        "mesh friction 0.06, seal drag at the input 0.1 N m (RV20E-121) and 0.25 N m (BX-40E)",
+        "mesh friction 0.06, seal drag at the input 0.1 N m (RV20E-121-rigid) and 0.25 N m (BX-40E-rigid)",
     )  # fmt: skip

@@ -55,6 +55,11 @@ FAULTS = {
     " the clearance is bearing.clearance",
 }
 
+# Those about parts that cannot be made or put together.
+OF_PARTS = frozenset(
+    (PRIMED, UNDERCUT, PINS_OVERLAP, ROLLERS_OVERLAP, RACES_DO_NOT_FIT, OUTPUT_HOLES_OVERLAP, OUTPUT_HOLES_OPEN, BEARINGS_OVERLAP)
+)
+
 
 @kernel
 def geometry_fault(r):

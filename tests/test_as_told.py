@@ -71,6 +71,6 @@ def test_a_comparison_says_the_same_as_its_tables(tmp_path):
 
 def test_a_step_written_by_hand_may_lack_most_of_it():
     step = step_of({"effects": ["sensor_gain.input_torque", "drag"]})
-    assert step.label == "sensor gain: input torque + drag" and step.kept and step.training is None and step.change("held_out") is None and step.signals == ()
+    assert step.label == "sensor gain (input torque) + drag" and step.kept and step.training is None and step.change("held_out") is None and step.signals == ()
     judged = step_of({"effects": ["drag"], "held_out_before": 3.0, "held_out_after": 1.0, "training_before": 2.0, "kept": False})
     assert judged.held_out is not None and (judged.held_out.before, judged.held_out.after) == (3.0, 1.0) and judged.training is None and not judged.kept

@@ -40,5 +40,5 @@ def test_a_figure_that_is_rarer_than_chance_is_named_though_less_far_off():
     four = replace(FIGURE, signal=record.quantity, condition=record.condition, model=3.2e-6)
     groups = found.doctor.localisation.groups
     # Of a noise that is known, four times are rare; of one that two repetitions tell they are not.
-    assert beside_none([four], space, groups).startswith("the figure that chance makes least often (p = 6e-05 among all), of 1, is sun")
+    assert beside_none([four], space, groups).startswith("the figure that chance makes least often (p = 6e-5 among all), of 1, is sun")
     assert beside_none([replace(four, dof=2)], space, groups) == ""

@@ -62,7 +62,7 @@ def test_poor_design(tmp_path):
     load = next(f for f in check.findings if f.code == "few levels of load")
     assert "cubic stiffness and a backlash" in load.text
     short = next(f for f in check.findings if f.code == "record too short")
-    assert "0.60 output turns" in short.text and "78 and 80" in short.text
+    assert "0.60 turns of the output" in short.text and "78 and 80" in short.text
     assert "separable" not in status(check).values()
 
 

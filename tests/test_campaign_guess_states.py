@@ -268,4 +268,4 @@ def test_a_word_that_is_not_understood_is_refused_with_those_that_are(tmp_path, 
         assert main([*command, "--tag", f"locked={word}"]) == 2
         assert f"--tag locked={word}: {word!r} is not understood; which side was held is one of input, output{more}" in " ".join(capsys.readouterr().err.split())
     assert main(command) == 0
-    assert "locked = input is assumed; --tag locked=WORD, which is input or output" in " ".join(capsys.readouterr().out.split())
+    assert "locked = input is assumed; --tag locked=input if so; --tag locked=WORD, which is input or output" in " ".join(capsys.readouterr().out.split())

@@ -148,8 +148,9 @@ def test_bad_input_exits_with_2_and_says_what_and_how(capsys, arguments, said):
 
 
 @pytest.mark.parametrize("setting, said", [
-    ("crank.eccentricity=1.4mm", "the trochoid has loops"), ("crank.eccentricity=1.25mm", "undercut"),
-    ("roller.radius=2mm", "rollers do not fit"),
+    ("crank.eccentricity=1.4mm", "makes loops of the profile; it must be below 1: an eccentricity below 1.3 mm"),
+    ("crank.eccentricity=1.25mm", "the flank is undercut; with crank.eccentricity = 1.25 mm"),
+    ("roller.radius=2mm", "outer_race.radius = 13.25 mm do not fit each other: inner race and a roller's diameter make 14.25 mm"),
 ])  # fmt: skip
 def test_impossible_reducer_exits_with_2_and_says_why(capsys, setting, said):
     assert main(["solve", "--set", setting]) == 2

@@ -334,7 +334,7 @@ def test_law_without_a_name(tmp_path):
 def test_ladder_shows_steps_that_did_not_help(tmp_path):
     page = written(file_of(*STEPS), tmp_path)
     assert "3 of 4 steps are part of the model" in page and "fell from 12.3 to 1.05" in page
-    assert "Did not help: sensor gain: input torque" in page and "because of sensor_gain.input_torque" in page
+    assert "Did not help: sensor gain (input torque)" in page and "because of sensor_gain.input_torque" in page
     stairs = next(t for t in figure(page, "ladder")["data"] if t.get("name") == "unused runs")
     assert [v for v in stairs["y"] if v is not None][:3] == [12.34, 12.34, 3.21] and 4.56 not in stairs["y"]
     cross = [t for t in figure(page, "ladder")["data"] if t.get("marker", {}).get("symbol") == "x"]

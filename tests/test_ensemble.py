@@ -111,7 +111,7 @@ def test_a_duty_scatters_by_factors(rv20e, file):
 
 def test_an_impossible_reducer_is_a_failed_life_not_a_failed_run(rv20e, file):
     task = tasks_of(load_ensemble(file))[0]
-    assert "trochoid has loops" in run(task.__class__(3, rv20e, (), (), 100.0, 0.1, {"eccentricity": 1.4e-3}))["fault"]
+    assert "makes loops of the profile" in run(task.__class__(3, rv20e, (), (), 100.0, 0.1, {"eccentricity": 1.4e-3}))["fault"]
 
 
 def test_a_life_is_kept_once_and_a_torn_line_is_done_again(tmp_path):

@@ -221,7 +221,7 @@ def test_what_is_altered_says_so_wherever_it_goes(tmp_path):
 def test_what_is_altered_says_which_reducers_had_what():
     context = Context(changes=["crank.eccentricity=1.1mm", "wear.pins=stand"])
     context.reducer(BX), context.reducer(RV)
-    assert context.altered == ("crank.eccentricity=1.1mm (BX-40E had 1.3 mm, RV20E-121 had 0.9 mm)", "wear.pins=stand (BX-40E had turn, RV20E-121 had turn)")
+    assert context.altered == ("crank.eccentricity=1.1mm (BX-40E-rigid had 1.3 mm, RV20E-121-rigid had 0.9 mm)", "wear.pins=stand (BX-40E-rigid had turn, RV20E-121-rigid had turn)")
     (claim,) = run(["T01"], changes=["crank.eccentricity=1.1mm"])
     assert claim.altered[0].startswith("crank.eccentricity=1.1mm (") and "had" in note_of(claim.altered)
 
@@ -229,13 +229,13 @@ def test_what_is_altered_says_which_reducers_had_what():
 def test_the_note_of_a_figure_names_the_reducers_that_it_shows():
     """Numbers of T08 are of both, its figure of one: the note spoke of both."""
     (claim,) = run(["T08"], changes=["crank.eccentricity=1.1mm"])
-    assert "RV20E-121 had 0.9 mm" in claim.altered[0] and {n.label.partition(":")[0] for n in claim.numbers} == {BX, RV}
-    assert claim.drawn_with == (("crank.eccentricity=1.1mm (BX-40E had 1.3 mm)",),) and len(claim.figures) == 1
+    assert "RV20E-121-rigid had 0.9 mm" in claim.altered[0] and {n.label.partition(":")[0] for n in claim.numbers} == {BX, RV}
+    assert claim.drawn_with == (("crank.eccentricity=1.1mm (BX-40E-rigid had 1.3 mm)",),) and len(claim.figures) == 1
 
 
 def test_curves_have_half_of_their_picture_however_much_is_said_of_them():
     curves = [Curve(f"a curve that is told from others by its rather long name, {k}", np.array([0.0, 1.0]), np.array([0.0, k])) for k in range(6)]
-    picture = drawn(noted_figure(chart("c", "t", "", curves, "phase on the tooth", "depth [um]", 12, 340), note_of(["pin.radius=3mm (BX-40E had 3.5 mm)"])), 85.0)
+    picture = drawn(noted_figure(chart("c", "t", "", curves, "phase on the tooth", "depth [um]", 12, 340), note_of(["pin.radius=3mm (BX-40E-rigid had 3.5 mm)"])), 85.0)
     picture.draw_without_rendering()
     (axes,) = picture.get_axes()
     title = axes.xaxis.label.get_window_extent()

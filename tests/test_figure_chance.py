@@ -21,7 +21,7 @@ def test_few_repetitions_leave_a_figure_to_chance():
     assert rarest(figures)[1] == pytest.approx(0.37, abs=0.02)
     assert chance_text(figures) == (
         "the least likely of 62 figures is mean width of the loop of hysteresis at 50N.m, 4.0 times its noise, its noise known from 6 degrees of freedom;"
-        " that chance makes one so rare among 62 is p = 0.4"
+        " that chance makes one so rare among 62 is p = 0.37"
     )
 
 

@@ -94,7 +94,7 @@ def test_command_library_and_claims_read_lost_motion_by_one_setting():
     default = inspect.signature(rvwear.hysteresis).parameters
     assert (default["steps"].default, default["angles"].default) == (STEPS, ANGLES)
     reducer = load_reducer("RV20E-121")
-    assert loop(reducer).lost_motion_arcmin == Context().stiffness("RV-20E").lost_motion_arcmin == hysteresis(reducer, []).lost_motion_arcmin
+    assert loop(reducer).lost_motion_arcmin == Context().stiffness("RV20E-121").lost_motion_arcmin == hysteresis(reducer, []).lost_motion_arcmin
 
 
 def test_key_figures_of_a_campaign_read_the_same_mean_width_and_lost_motion():

@@ -19,10 +19,10 @@ from reducers.completion.command import words_of
 from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
-from reducers.completion.geometry import largest_pin
 from reducers.completion.given import SUN, Given, given_with, of_ratio, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
+from rv_plant.parts import largest_pin
 from studies.catalogue_stiffness import as_stiff_as
 from studies.completed_ranges import Influence, influences, what_matters
 from studies.hysteresis import hysteresis

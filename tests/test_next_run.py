@@ -173,7 +173,7 @@ def test_what_one_effect_may_come_from_is_said():
     assert said.startswith(asked)
     # "nothing is left to separate" stood behind the question: what it costs does.
     assert "nothing is left" not in said
-    assert "this can still be asked: it costs the change itself and 200 EUR after it, 2 repetitions of a condition of transmission_error over a whole turn, such as c;" in said
+    assert "this can still be asked: it costs the change itself and 200 EUR after it: 2 repetitions of a condition of transmission_error over a whole turn, such as c;" in said
     assert said.endswith("apart from that nothing is missing that this campaign shows")
     assert "and 2 runs after it" in proposal_for(answer, replace(campaign, rig=None)).verdict
 

@@ -10,9 +10,9 @@ import pytest
 from cli.main import main
 from fmu_src.faults import InputFault, RunFault
 from reducers.checking import check
-from reducers.completion.geometry import HOLES, LOOPS, NOWHERE, OUTPUT_HOLES, PINS, ROLLERS, ROOTS, UNDERCUT
 from reducers.library import LIBRARY, available
 from reducers.reducer import load_reducer
+from rv_plant.parts import HOLES, LOOPS, NOWHERE, OUTPUT_HOLES, PINS, ROLLERS, ROOTS, UNDERCUT
 from studies.report.assembly import at_rest
 from studies.report.checked import page_of, parts
 from studies.report.not_made import drawings, lens
@@ -33,7 +33,7 @@ def stated(folder, name, pattern, text):
     return folder / "mine.toml"
 
 
-@pytest.mark.parametrize("name, numbers, place, limit", [
+NOT_MADE = [
     ("RV20E-121", {"eccentricity": 1.28 * MM}, UNDERCUT, r"radius must be below 1\.123 mm; give a smaller pin, or an eccentricity below 1\.235 mm"),
     ("RV20E-121", {"pin_radius": 5.5 * MM}, PINS, r"radius must be below 4\.08 mm"),
     ("RV20E-121", {"eccentricity": 1.45 * MM}, LOOPS, r"an eccentricity below 1\.3 mm"),
@@ -45,7 +45,10 @@ def stated(folder, name, pattern, text):
     ("cycloidal-actuator", {"output_pin_radius": 9 * MM}, OUTPUT_HOLES, r"radius must be below 5\.95 mm"),
     ("cycloidal-actuator", {"output_circle_radius": 27 * MM}, OUTPUT_HOLES, r"cuts the roots of the disc, 1\.95 mm from its centre.*below 0\.4 mm"),
     ("cycloidal-actuator", {"outer_race_radius": 12.3 * MM}, ROLLERS, r"make 12\.5 mm"),
-])  # fmt: skip
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name, numbers, place, limit", NOT_MADE)
 def test_what_cannot_be_made_is_drawn_with_the_place_and_its_limit(name, numbers, place, limit):
     """One line in metres without a limit stood there, and nothing was drawn."""
     found = check(changed(name, **numbers))
@@ -60,6 +63,30 @@ def test_what_cannot_be_made_is_drawn_with_the_place_and_its_limit(name, numbers
         # What is marked stands in the closer look.
         (x0, x1), (y0, y1) = (figures[1].layout[axis]["range"] for axis in ("xaxis", "yaxis"))
         assert any(x is not None and x0 < x < x1 and y0 < y < y1 for x, y in zip(marked[0]["x"], marked[0]["y"]))
+
+
+@pytest.mark.parametrize("name, numbers", [(name, numbers) for name, numbers, place, _ in NOT_MADE if place])
+def test_who_computes_with_it_says_the_sentence_of_the_check(name, numbers):
+    """The plant's own line, in metres and without a limit, stood under `solve`, `life` and in the workbench."""
+    reducer = changed(name, **numbers)
+    with pytest.raises(InputFault) as refused:
+        at_rest(reducer)
+    assert str(refused.value) == f"{name} cannot be made: {check(reducer).faults[0]}"
+
+
+@pytest.mark.parametrize("command", [["solve"], ["life", "--hours", "10"]])
+def test_commands_say_key_value_limit_and_remedy(command, tmp_path, monkeypatch, capsys):
+    path = stated(tmp_path, "RV20E-121", r"eccentricity = \{ value = 0\.9", "eccentricity = { value = 1.6")
+    monkeypatch.chdir(tmp_path)
+    assert main([*command, "--reducer", str(path)]) == 2
+    told = capsys.readouterr()
+    assert told.out == "" and told.err == (
+        f"rvwear {command[0]}: mine cannot be made: crank.eccentricity = 1.6 mm: K1 = e z_p / R_p = 1.23 makes loops of the profile; it must be below 1:"
+        " an eccentricity below 1.3 mm, or pin.circle_radius above 64 mm\n"
+    )
+    # An option as much as a file, and a bench at its conditions.
+    assert main([*command, "--set", "pin.radius=4.2mm"]) == 2
+    assert "RV20E-121 cannot be made: pin.radius = 4.2 mm: 40 pins on a circle of 52 mm radius overlap; " in capsys.readouterr().err
 
 
 def test_the_limits_are_those_of_the_plant():

@@ -81,7 +81,7 @@ def test_next_says_of_what_is_open_which_run_would_tell_it_or_that_none_does(spa
     answer = SimpleNamespace(effects=[], diagnosis=found, model=SimpleNamespace(file=file))
     assert law_of(answer).values == space.base.values
     best = Proposal("loop at 90 deg", {}, 2.0, 9.0, 9.0, {}, "loop")
-    for proposals, measured, says in (([best], [], "loop at 90 deg tells that, the cheapest that does (they differ there by 9.0 in chi-square, of which 6 is enough)"),
+    for proposals, measured, says in (([best], [], "loop at 90 deg tells that, the cheapest that does (they differ there by 9.0 in chi-square, where 6 is enough)"),
                                       ([best], ["a"], "no run within the limits tells that by itself"), ([], [], "no run within the limits tells that by itself")):  # fmt: skip
         asked = []
         monkeypatch.setattr(weighed_runs, "weighed", lambda answer, campaign, rivals: asked.append(rivals) or SimpleNamespace(proposals=proposals))

@@ -223,7 +223,7 @@ def test_without_limits_there_is_no_end(rv20e):
 
 
 def test_faults_of_either_part_are_told(rv20e):
-    with pytest.raises(InputFault, match="trochoid has loops"):
+    with pytest.raises(InputFault, match="crank.eccentricity = 3 mm: K1 = .* makes loops"):
         run(make_unit(rv20e, eccentricity=3e-3), 1, 1e-3)
     unit = run(make_unit(rv20e, acceleration=1e6), 1, 1e-3)
     before = unit.save()

@@ -12,6 +12,7 @@ from cli.altered import note_of, noted_figure
 from cli.commands.reproduce import default_page
 from cli.main import main
 from fmu_src.faults import InputFault
+from reducers.library import available
 from reproduce import kept, rig, wall
 from reproduce import printed_forms as printed
 from reproduce.claim import CONDITIONAL, FALLEN, REGISTRY, REPRODUCED, SOURCES, VERDICTS, Number
@@ -80,16 +81,16 @@ def test_both_sources_the_literature_and_the_catalogue_are_covered():
 
 @pytest.mark.parametrize("identity, label, right, printed_value", [
     ("T01", "K1", 0.7482, None),
-    ("T05", "BX-40E: the printed form's largest miss", None, 23.8),
-    ("T05", "RV20E-121: the printed form's largest miss", None, 13.0),
-    ("T08", "BX-40E: smallest convex radius", 2.7, None),
-    ("T08", "BX-40E: the same, printed", None, 8.7),
+    ("T05", "BX-40E-rigid: the printed form's largest miss", None, 23.8),
+    ("T05", "RV20E-121-rigid: the printed form's largest miss", None, 13.0),
+    ("T08", "BX-40E-rigid: smallest convex radius", 2.7, None),
+    ("T08", "BX-40E-rigid: the same, printed", None, 8.7),
     ("T23", "at the root", 0.372, -3.83),
     ("T23", "at the tip", 3.04, 0.59),
     ("N07", "largest pin force", 311.2, 319.9),
     ("N08", "k", 4.6e-19, 5.6e-22),
     ("N06", "largest load over the turn", 2.7, None),
-    ("C01", "RV20E-121, literal: stiffness of each crank's supports that closes the gap", 1.4e8, None),
+    ("C01", "RV20E-121-rigid, literal: stiffness of each crank's supports that closes the gap", 1.4e8, None),
 ])
 def test_key_numbers_agree_with_the_independent_check(claims, identity, label, right, printed_value):
     number = number_of(claims, identity, label)
@@ -147,13 +148,13 @@ def test_progress_is_told():
 
 
 def test_a_coarser_run_is_not_called_as_the_one_it_is_held_against(monkeypatch):
-    """"run BX-40E, 10000 h" stood there twice."""
+    """"run BX-40E-rigid, 10000 h" stood there twice."""
     lines = []
     context = Context(lines.append)
     monkeypatch.setattr(context, "lived", lambda *more: None)
     context.life(BX)
     context.life(BX, positions=24)
-    assert [line.strip() for line in lines] == ["BX-40E, 10000 h", "BX-40E, 10000 h, 24 positions a turn"]
+    assert [line.strip() for line in lines] == ["BX-40E-rigid, 10000 h", "BX-40E-rigid, 10000 h, 24 positions a turn"]
 
 
 def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):
@@ -307,7 +308,7 @@ def test_a_run_with_other_numbers_is_called_one_and_the_sources_are_computed_onc
 
 def test_other_numbers_do_not_carry_the_cause_of_the_published_verdict(capsys):
     (theirs,), (moved,) = run(["T24"]), run(["T24"], changes=["crank.eccentricity=1.0mm"])
-    assert theirs.cause == theirs.why and moved.cause.startswith("crank.eccentricity=1.0mm (BX-40E had 1.3 mm): the cause that is told")
+    assert theirs.cause == theirs.why and moved.cause.startswith("crank.eccentricity=1.0mm (BX-40E-rigid had 1.3 mm): the cause that is told")
     print_table([moved])
     shown = (capsys.readouterr().out, html.unescape(page_of([moved], moved.altered)), json.dumps(as_json([moved]), ensure_ascii=False),
              *(str(table.frame()) for table in tables_of([moved])[:2]))  # fmt: skip
@@ -330,7 +331,7 @@ def test_a_page_of_some_claims_or_of_other_numbers_does_not_take_the_place_of_th
 
 
 def test_a_figure_says_what_was_set_and_whether_that_moved_it():
-    changes = ["crank.eccentricity=1mm (BX-40E had 1.3 mm)"]
+    changes = ["crank.eccentricity=1mm (BX-40E-rigid had 1.3 mm)"]
     assert note_of(changes).endswith("conclusions drawn from those need not hold") and note_of(changes, is_moved=False).endswith("nothing here is moved by that")
     # One to scale has no axis to write below.
     (claim,) = run(["T05"])
@@ -353,7 +354,7 @@ def test_a_claim_that_its_numbers_no_longer_carry_is_counted_and_said_as_such(cl
 def test_a_legend_says_what_a_curve_is_whatever_number_was_changed():
     (claim,) = run(["T18"], changes=["crank.eccentricity=1.1mm"])
     names = {trace["name"] for trace in claim.figures[0].data if "name" in trace}
-    assert {"BX-40E, soft bearings", "BX-40E, rigid bearings"} <= names
+    assert {"BX-40E-rigid, soft bearings", "BX-40E-rigid, rigid bearings"} <= names
 
 
 @pytest.mark.campaign
@@ -364,7 +365,7 @@ def test_the_whole_run_stands():
     assert page_of([c for c in claims if c.id in QUICK]) == page_of(run(QUICK))
     inner = number_of(claims, "N10", "inner raceway, 10,000 h (printed: 2,000 h segments)")
     assert inner.value == pytest.approx(3.01, rel=0.02, abs=0)
-    assert number_of(claims, "T28", "RV20E-121, ideal: after 10,000 h").value == pytest.approx(56.0, abs=3.0)
+    assert number_of(claims, "T28", "RV20E-121-rigid, ideal: after 10,000 h").value == pytest.approx(56.0, abs=3.0)
 
 
 @pytest.mark.parametrize("options, said", [
@@ -387,3 +388,12 @@ def test_a_claim_says_of_which_reducers_its_numbers_are(capsys):
     assert "Numbers of BX-40E-rigid." in page_of([alone])
     print_table([alone])
     assert "of BX-40E-rigid" in capsys.readouterr().out and "and no speed" in alone.cause
+
+
+def test_a_reducer_has_one_name_in_all_that_is_said_of_a_claim():
+    """"of BX-40E-rigid" stood below "BX-40E had 3 um" and beside curves of BX-40E, which is another reducer of the library."""
+    for claim in (*run(QUICK), *run(["T24"], changes=["bearing.clearance=10um"])):
+        figures = [text for f in claim.figures for text in (f.title, f.caption, *(str(trace.get("name", "")) for trace in f.data))]
+        words = " ".join([*figures, *(n.label for n in claim.numbers), *(text for text, _ in claim.grounds), *claim.altered])
+        named = {name for name in available() if re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", words)}
+        assert named <= {*claim.reducers}, claim.id

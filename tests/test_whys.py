@@ -49,4 +49,4 @@ def test_a_step_of_the_ladder_says_what_it_was_judged_on():
 def test_what_is_significant_stands_in_a_table_beside_the_map():
     varied = [PLACE, PLACE | {"dependence": "load", "p": 0.5}]
     (table,) = localisation("place", varied, 0.004)[1]
-    assert table.rows == [["hysteresis", "branch of torque", "100 %", "p = 1e-09", "yes"]] and "80.0 of chi-square, in 3 dimensions" in table.whys[0].data
+    assert table.rows == [["hysteresis", "branch of torque", "100 %", "p = 1e-9", "yes"]] and "80.0 of chi-square, in 3 dimensions" in table.whys[0].data

@@ -241,7 +241,7 @@ def test_what_is_significant_is_no_share_of_nothing(bench):
     page.goto(bench.address)
     found = page.evaluate("""async () => {
       const { fails } = await import('./static/look_parts.js');
-      const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, p: 8e-7, why: null });
+      const place = (share) => ({ signal: 'transmission_error', feature: 'orders', dependence: 'load', share, chance: 'p = 8e-7', why: null });
       return [...fails({ signals: [], places: [place(0.94), place(0.002)] }, {}).querySelectorAll('td.num')].map((cell) => cell.textContent);
     }""")
     assert found == ["94 %, p = 8e-7", "< 1 %, p = 8e-7"]

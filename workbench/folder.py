@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from discrepancy.campaign.measurement_files import measurement_files
+from discrepancy.refused_file import only_refused
 from fmu_src.checked_file import replacing, write_text
 from fmu_src.faults import InputFault, nearest, nearest_path
 from reducers.library import available
@@ -117,12 +118,15 @@ class Folder:
 
 @lru_cache(maxsize=256)
 def is_model(path: Path, changed: int) -> bool:
-    """Whether a file says that it is a model or a reducer, as it begins to; one that cannot be read is shown, so that choosing it says why."""
+    """Whether a file says that it is a model or a reducer, as it begins to; one that cannot be read is shown, so that choosing it says why.
+
+    Where nothing but refused effects stands in it, it is its reducer, which is in the list already.
+    """
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return True
-    return isinstance(content.get("model"), dict) or isinstance(content.get("reducer"), dict)
+    return (isinstance(content.get("model"), dict) and not only_refused(content)) or isinstance(content.get("reducer"), dict)
 
 
 def opened(root: Path) -> Folder:

@@ -9,6 +9,7 @@ import numpy as np
 from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
 from discrepancy.figure_digits import figure_texts
+from discrepancy.inference.chance import chance
 from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
@@ -65,7 +66,7 @@ def view(result: Comparison, page: Page) -> tuple[dict[str, Any], bytes]:
         "figures": figures(result.figures), "of_chance": capital(amounts.in_words(result.of_chance)),
         "calibrated": calibrated(result), "unsure": unsure_text(result.diagnostician.space.base).replace("+-", "±"),
         "signals": [signal(name, members, columns, ratios) | {"errors": errors_of(name, result.signals)} for name, members in by_signal(runs).items()],
-        "places": [asdict(g) | {"why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
+        "places": [asdict(g) | {"chance": chance(g.p), "why": asdict(whys.of_place(asdict(g), place.level))} for g in place.largest],
         "orders": named, "nuisances": result.nuisances,
     }  # fmt: skip
     return told, columns.bytes()

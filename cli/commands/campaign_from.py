@@ -46,7 +46,7 @@ def add_command(actions: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         ("--counts", "COLUMN=STEPS", "steps a turn of a column that counts an encoder's"),
         ("--quantity", "FILES=QUANTITY", "what files hold ('loop*=hysteresis'); QUANTITY alone for all"),
         ("--condition", "KEY=VALUE", "what no file says ('output_speed=15 rpm'); NAME:KEY=VALUE for one condition; locked_at=named: the input of loops was"
-         " locked at the one angle that their names hold"),
+         " locked at the one angle that their names hold; input_speed=named or output_speed=named: the speeds that names and heads say are of that shaft"),
         ("--tag", "KEY=WORD", "what measurements are of: locked=input or output; surface=flank, pin, inner_race or outer_race; disc=1 ..."),
         ("--zero", "QUANTITY=absolute", "the zero of transmission_error, hysteresis or transmission_order is known, so that its mean counts"
          " (default: free, it is taken off)"),
@@ -108,16 +108,22 @@ def run_from(options: argparse.Namespace) -> int:
         ready = [doubt for doubt in proposal.unplaced if "..." not in doubt.remedy]
         print(f"{folder / 'campaign.toml'} {said}:\n  {again(options, [*proposal.needs, *ready])}")
     else:
-        if proposal.unplaced:
-            print(f"where the input was locked is said by (next time with the first call)\n  {again(options, proposal.unplaced)}")
+        guesses = [doubt for doubt in proposal.doubts if doubt.so]
+        locked = "where the input was locked" if proposal.unplaced else ""
+        if guesses:
+            also = f", and {locked}," if locked else ""
+            print(f"this line states what was guessed{also} so that it is not asked again; leave out what is wrong\n"
+                  f"  {again(options, proposal.unplaced, guesses)}")  # fmt: skip
+        elif locked:
+            print(f"{locked} is said by (next time with the first call)\n  {again(options, proposal.unplaced)}")
         if proposal.doubts or findings:
             command = f"{shlex.join(['rvwear', 'campaign', 'check', str(folder)])}\n  {command}"
         print(f"{folder / 'campaign.toml'} is written; {'look at what is not sure, then' if proposal.doubts or findings else 'next'}:\n  {command}")
     return code
 
 
-def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
-    """The command as it was given, to be completed by what is asked; names that could say a torque are asked to."""
+def again(options: argparse.Namespace, asked: "Sequence[Doubt]", guesses: "Sequence[Doubt]" = ()) -> str:
+    """The command as it was given, to be completed by what is asked, and with ``guesses`` as they were made; names that could say a torque are asked to."""
     words = ["rvwear", "campaign", "from", *in_short(options.files)]
     for option in ("output", "reducer", "angle-of"):
         words += [f"--{option}", given] if (given := getattr(options, option.replace("-", "_"))) else []
@@ -126,7 +132,7 @@ def again(options: argparse.Namespace, asked: "Sequence[Doubt]") -> str:
     if options.held_out is not None:
         words += ["--held-out", *options.held_out]
     needed = dict.fromkeys(match[0] for need in asked if (match := FIRST_OPTIONS.match(need.remedy)))
-    return " ".join([shlex.join([*words, "--overwrite"]), *needed])
+    return " ".join([shlex.join([*words, "--overwrite"]), *dict.fromkeys(doubt.so for doubt in guesses), *needed])
 
 
 def in_short(files: Sequence[str]) -> list[str]:

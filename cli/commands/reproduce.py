@@ -77,10 +77,10 @@ def default_page(claims: list[str], changes: list[str]) -> str:
 
 def require_settings(changes: list[str]) -> None:
     """Before the work: InputFault for a number that the sources' reducers do not have, or in a unit that does not fit."""
-    from reproduce.context import LIBRARY, Context
+    from reproduce.context import BX, REAL_BX, REAL_RV, RV, Context
 
     context = Context(changes=changes)
-    for name in LIBRARY if changes else ():
+    for name in (BX, RV, REAL_BX, REAL_RV) if changes else ():
         context.reducer(name)
 
 

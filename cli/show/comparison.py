@@ -15,6 +15,7 @@ from discrepancy.compare import Comparison, calibrated_texts
 from discrepancy.extend import HELPED, Extension
 from discrepancy.figure_digits import figure_texts, plain_text
 from discrepancy.held_shapes import held_text
+from discrepancy.inference.chance import chance_number
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.inference.verdict import NONE
@@ -32,6 +33,7 @@ from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
 from discrepancy.wording import (
+    NEAREST,
     SHARE,
     base_texts,
     error_text,
@@ -142,7 +144,7 @@ def show_localisation(localisation: Localisation, out: Console | None = None) ->
     for name in ("signal", "what", "depends on", "of all misfit", "p"):
         table.add_column(name, justify="right" if name in ("of all misfit", "p") else "left")
     for g in findings[:LONGEST]:
-        table.add_row(g.signal, g.feature, g.dependence, percent_of_misfit(g.share), f"{g.p:.1g}")
+        table.add_row(g.signal, g.feature, g.dependence, percent_of_misfit(g.share), chance_number(g.p))
     out.print(table)
     if len(findings) > LONGEST:
         out.print(f"and {len(findings) - LONGEST} more: --json lists all")
@@ -191,7 +193,7 @@ def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
     show_figures(answer.figures, out, answer.model.file, bool(answer.diagnosis.nuisances), answer.figures_after, answer.added, answer.of_chance)
     if answer.would_show:
         show_would_show(answer.would_show, out)
-    rejected = turned_down(answer)[:6]
+    rejected = turned_down(answer)[:NEAREST]
     if rejected:
         # Of nothing there are no rivals.
         out.print("\nwhat came nearest, none of it significant" if answer.verdict == NONE else "\nclosest rivals")

@@ -7,6 +7,7 @@ from cli.show.guessed_runs import table_of
 from discrepancy.campaign.findings import Finding
 from discrepancy.campaign.guess.in_columns import said_by_columns
 from discrepancy.campaign.guess.propose import PlacedRun, Proposal
+from discrepancy.campaign.guess.said import Doubt
 from discrepancy.campaign.guess.whose_angle import over_output
 from discrepancy.problem import WITH_ZERO
 
@@ -47,11 +48,18 @@ def show(proposal: Proposal, findings: Sequence[Finding] = (), reducer_given: bo
         told = "given; lines above the tables say the same" if reducer_given else "as lines above the tables say; --reducer takes another, or a reducer file"
         out.print(f"reducer {proposal.reducer}: {told}")
     for doubt in proposal.doubts:
-        out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {doubt.remedy}"))
+        out.print(styled(("not sure", "yellow"), f"  {doubt.place}: {doubt.text}; {confirmed(doubt)}{doubt.remedy}"))
     for finding in findings:
         out.print(styled(("not sure", "yellow"), f"  {finding.text}; {finding.remedy}"))
     for need in proposal.needs:
         out.print(styled(("needed", "red"), f"  {need.place}: {need.text}; {need.remedy}"))
+
+
+def confirmed(doubt: Doubt) -> str:
+    """The option that states a guess as it is; of many files the command below has it."""
+    if not doubt.so:
+        return ""
+    return f"{doubt.so} if so; " if doubt.so.count("--") == 1 else "the line below states it if so; "
 
 
 def columns_key(run: PlacedRun) -> tuple[object, ...]:

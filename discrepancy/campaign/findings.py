@@ -170,11 +170,11 @@ def angles(design: Design) -> Iterator[Finding]:
         short = longest < 1.0 - 0.01
         consequence = (
             "orders that differ by 2 per turn (ring and carrier, 78 and 80 at 40 pins) are not resolved" if short
-            else "neighbouring orders are resolved, but with little to spare; three turns are better"
+            else "neighbouring orders are resolved, but with little to spare"
         )  # fmt: skip
         yield Finding(
-            WARNING, "record too short", f"transmission_error: longest record {longest:.2f} output turns: {consequence}",
-            "record at least one output turn, better three",
+            WARNING, "record too short", f"transmission_error: the longest record has {longest:.2f} turns of the output: {consequence}",
+            "record at least one turn of the output, better three" if short else "three turns are better",
         )  # fmt: skip
     if (reducer := design.campaign.reducer) is None:
         return

@@ -135,7 +135,8 @@ PAIRS = (
          "stiffness at 10, 50, 100 and 200 % of the rated torque: contacts stiffen, the housing does not",
          ("hysteresis", "torsional_stiffness", "lost_motion"), ((WIDE_TORQUES,),)),
     Pair(8, ("the pins' own places", "an oval or clamped ring"),
-         "one output turn or more (better three), then turn the ring by some pins, or clamp it anew: pins go with it, what the housing does stays",
+         "record one output turn or more (better three), turn the ring by some pins or clamp it anew, and record again: pins go with it, what the"
+         " housing does stays",
          ("transmission_error",), ((full_turns(1), intervention("ring_turned", "transmission_error")),), "pin_ring_"),
     Pair(9, ("encoder eccentricity", "carrier run-out"), "turn the encoder on its shaft, or use two reading heads",
          ("transmission_error",), ((intervention("encoder_turned", "transmission_error"),), (TWO_MOUNTINGS,))),

@@ -268,7 +268,7 @@ class Diagnostician:
         first = sorted(self.screening.scores, key=lambda s: -s.statistic)[:FIRST]
         # Of what was tried at first, each has a score or shows nothing.
         idle = len(self.candidates) - len(self.refits.scores)
-        without = f", the other {idle} change nothing here that could be seen" if idle else ""
+        without = f", the other {'one changes' if idle == 1 else f'{idle} change'} nothing here that could be seen" if idle else ""
         shown = ", ".join(f"{s.name} ({self.explained(s)})" for s in first)
         say(f"{self.tested}{without}; at first sight, each alone and none fitted yet, these could explain most: {shown}; no answer yet")
 

@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.chance import chance
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
@@ -39,6 +40,12 @@ def beyond(space: Workspace, member: Refit, candidate: Candidate) -> bool:
         ratios.append(float(np.ptp(change)) / max(float(np.ptp(measured)), 1e-300))
     shown = [ratio for ratio in ratios if ratio > SHOWN]
     return bool(shown) and min(shown) > 1.0
+
+
+def grown(name: str, before: float, after: float) -> list[str]:
+    """A warning of an effect beside which runs that were not fitted are further off; none where the digits that are told everywhere stay the same."""
+    was, now = f"{before:.2f}", f"{after:.2f}"
+    return [f"{name}: the misfit in the patterns of runs not used for fitting grew from {was} to {now}"] if after > before and now != was else []
 
 
 @dataclass(frozen=True)
@@ -84,8 +91,7 @@ class Teller:
                 effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
                                       self.scores[c.name].p_adjusted if c.name in self.scores else 1.0, *beside_first(member, members)))
-                if after > before:
-                    warnings.append(f"{c.name}: the misfit in the patterns of runs not used for fitting grew from {before:.2f} to {after:.2f}")
+                warnings += grown(c.name, before, after)
         if several:
             effects.sort(key=lambda e: -e.gain)
         names = {e.name for e in effects}
@@ -98,7 +104,7 @@ class Teller:
                                  "not significant after correction for multiplicity"})
         for s in self.scores.values():
             if s.name not in names and not any(x["name"] == s.name for x in rejected):
-                rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: p = {s.p_adjusted:.2g} over all effects, "
+                rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: {chance(s.p_adjusted)} over all effects, "
                                  f"explains {chi_text(s.statistic)} of chi-square alone"})
         if not members:
             # Of what is not significant the nearest is that which chance makes least often, not that with the most parameters.

@@ -163,4 +163,4 @@ def decide(significant_candidate: bool, significant_place: bool, named: int, mem
         return SEVERAL, "more than one effect is needed, each significant beside the others"
     if members > 1:
         return SET, "these effects fit equally well; this campaign cannot separate them"
-    return ONE, "one effect explains the misfit and no rival comes near"
+    return ONE, "it explains the misfit, and no rival comes near"

@@ -1,5 +1,6 @@
 """The parts of a diagnosis's page: effects, unused conditions, what cannot be separated, rivals, laws."""
 
+from dataclasses import replace
 from typing import Any
 
 from discrepancy.as_told import tables_of, told_name
@@ -12,12 +13,22 @@ from discrepancy.sample_errors import COUNTED, OF_PATTERNS, OF_SAMPLES, PATTERNS
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
 from discrepancy.waves import waves_of
-from discrepancy.wording import fitted_together, not_judged_text, percent, together_text, told_apart_by, turned_down, variant_text, with_base_text
+from discrepancy.wording import (
+    NEAREST,
+    fitted_together,
+    not_judged_text,
+    percent,
+    together_text,
+    told_apart_by,
+    turned_down,
+    variant_text,
+    with_base_text,
+)
 from fmu_src.effect_words import effect_title as words
 from pages import look
 from pages.content import Section, Table
 from pages.look import Figure
-from pages.words import capital, number
+from pages.words import capital, counted, number
 
 MOST_RIVALS = 12
 SHARES = "Share of the misfit explained"
@@ -188,11 +199,10 @@ def rivals(answer: Answer) -> Section:
     rows = [[words(r["name"]), r["reason"]] for r in rejected]
     refitted = [r for r in rejected if r["chi2_difference"] is not None][:MOST_RIVALS]
     count = sum(r["chi2_difference"] is not None for r in rejected)
-    lead = (
-        f"{count} {'was' if count == 1 else 'were'} fitted in full, the others fell to the score test."
-        if refitted
-        else "None came through the score test."
-    )
+    fitted = f"{count} {'was' if count == 1 else 'were'} fitted in full, the others fell to the score test." if refitted else ""
+    lead = fitted or "None came through the score test."
+    if answer.verdict == NONE:
+        lead = f"{counted(len(rows), 'effect')}: none improves more than chance would. {fitted}".rstrip()
     figures = []
     if refitted and answer.effects:
         values = [max(r["chi2_difference"], 0.0) for r in refitted]
@@ -210,8 +220,14 @@ def rivals(answer: Answer) -> Section:
             )
         ]
     table = Table("", ["effect", "reason"], rows, whys=[whys.of_rival(r) for r in rejected])
+    # The nearest first; a row less is not worth a click.
+    shown = max(NEAREST, count)
+    tables = [table]
+    if len(rows) > shown + 1:
+        others = f"The other {len(rows) - shown} effects"
+        tables = [replace(table, rows=rows[:shown], whys=table.whys[:shown]), replace(table, rows=rows[shown:], whys=table.whys[shown:], folded=others)]
     title = "What came nearest, none of it significant" if answer.verdict == NONE else "Rivals and why they were turned down"
-    return Section("rivals", title, lead, figures, [table])
+    return Section("rivals", title, lead, figures, tables)
 
 
 def recovered(answer: Answer) -> Section:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.inference.chance import chance
+from discrepancy.inference.chance import chance, chance_number
 from discrepancy.page.amounts import signal_title
 from discrepancy.page.runs import slug
 from discrepancy.page.whys import amount, of_place
@@ -125,7 +125,7 @@ def place_table(places: Sequence[Mapping[str, Any]], level: float) -> Table:
     ]
     only = f"with {places[0]['dependence'].replace('_', ' ')}" if alike else "that is significant"
     where = "at all conditions alike" if all(p["dependence"] == "everywhere" for p in places) else only
-    return Table(f"Misfit {where}", ["signal", "what", "share of all misfit", "p over all tests", f"significant at {level:g}"], rows, (2,),
+    return Table(f"Misfit {where}", ["signal", "what", "share of all misfit", "p over all tests", f"significant at {chance_number(level)}"], rows, (2,),
                  whys=[of_place(dict(p), level) for p in shown])
 
 
@@ -153,12 +153,12 @@ def place_map(prefix: str, places: Sequence[Mapping[str, Any]], level: float) ->
     # Up to the level all is grey: only what is significant takes colour.
     start = min(-math.log10(max(level, 1e-300)), 0.8 * MOST_DIGITS) / MOST_DIGITS
     scale = [[0.0, TESTED], [start, TESTED], *[[start + (1.0 - start) * (0.001 + 0.999 * i / 5), c] for i, c in enumerate(look.DEPTH)]]
-    ticks = {0.0: "1", start * MOST_DIGITS: f"{level:.0e}".replace("e-0", "e−"), MOST_DIGITS: f"≤ 1e−{MOST_DIGITS:.0f}"}
+    ticks = {0.0: "1", start * MOST_DIGITS: chance_number(level), MOST_DIGITS: f"≤ {chance_number(10.0**-MOST_DIGITS)}"}
     trace = heat(z, labels, rows, text, hover, "p", 0.0, MOST_DIGITS, ticks) | {"colorscale": scale}
     found = sum(p["p"] <= level for p in places)
     caption = (
         "Left column: alike at all conditions, right of it: changing with a factor. Colour: p over all tests "
-        f"together; grey is tested and not significant at {level:g} ({found} of {len(places)} are). Numbers:"
+        f"together; grey is tested and not significant at {chance_number(level)} ({found} of {len(places)} are). Numbers:"
         f" share {SHARE};"
         " features overlap, so shares need not add to 100 %."
     )
@@ -197,7 +197,7 @@ def comb(prefix: str, signal: str, places: Sequence[Mapping[str, Any]], level: f
     )
     caption = (
         f"Orders that belong to no named part. 1 is what noise alone gives on average; of {len(places)} tests some give several times that by chance:"
-        f" coloured are those that all tests together leave significant (p ≤ {level:g})."
+        f" coloured are those that all tests together leave significant (p ≤ {chance_number(level)})."
     )
     return Figure(
         f"{prefix}_orders_{slug(signal)}", f"{signal_title(signal).capitalize()}: single orders", caption, [bars], picture, 12, 240

@@ -1,6 +1,7 @@
 """The page of a proposal: what to measure next, at what cost, and what it would settle."""
 
 import math
+import re
 from collections.abc import Sequence
 
 from discrepancy.clauses import clauses
@@ -17,6 +18,8 @@ from pages.words import capital, number
 MOST = 12
 # What an experiment is expected to do is shown by nothing yet: no green.
 ENOUGH_COLOUR, POOR = look.NOW, "#98a3af"
+# What is typed into a file: a word in quotes, a key before one, a key with its tables.
+KEY = re.compile(r'"[^"]*"|(?<![\w.])(?:[a-z_]+(?= = ["\[])|[a-z]\w*(?:\.[a-z]\w*)+)')
 
 
 def page(run: NextRun) -> Page:
@@ -51,7 +54,13 @@ def page(run: NextRun) -> Page:
 
 
 def sentences(lines: Sequence[str]) -> str:
-    return " ".join(f"{capital(line)}." for line in map(readable, map(amounts.with_titles, lines)))
+    return " ".join(f"{line if KEY.match(line) else capital(line)}." for line in map(in_sentence, map(amounts.in_words, lines)))
+
+
+def in_sentence(line: str) -> str:
+    """Names as words; what is typed into a file stays as it is typed there."""
+    # What is split at stands at the odd places.
+    return "".join(part if k % 2 else readable(part) for k, part in enumerate(re.split(f"({KEY.pattern})", line)))
 
 
 def cards(run: NextRun, currency: str) -> list[Card]:

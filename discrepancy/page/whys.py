@@ -7,7 +7,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.extend import BETTER
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.chance import chance
+from discrepancy.inference.chance import chance, chance_number
 from discrepancy.inference.law.closed_forms import Form
 from discrepancy.inference.next_experiment import ENOUGH, Proposal
 from discrepancy.inference.noise.series import stream_of
@@ -66,7 +66,7 @@ def of_place(p: dict[str, Any], level: float) -> Why:
     return Why(
         "part of the misfit along this function, r'G (G'G)⁺ G'r, nuisances taken out, against an F law of the noise",
         f"{amount(p)}, in {p['width']} dimensions, where noise leaves {p['width']}; noise known to {p['dof']:.0f} degrees of freedom",
-        f"{chance(p['p'])} over all tests together (Holm); significant below {level:g}",
+        f"{chance(p['p'])} over all tests together (Holm); significant below {chance_number(level)}",
     )
 
 
@@ -152,8 +152,8 @@ def of_screening(answer: Answer) -> Why:
     return Why(
         "score test: how well an effect's response, nuisances taken out, matches what the base model leaves",
         f"{counted(len(answer.diagnosis.rejected) + len(answer.effects), 'effect')}, simulated noise for their number",
-        f"{chance(answer.diagnosis.p_screen)}; something is missing below {USED.naming_level:g} where the misfit has a place,"
-        f" else below {USED.screen_level:g}",
+        f"{chance(answer.diagnosis.p_screen)}; something is missing below {chance_number(USED.naming_level)} where the misfit has a place,"
+        f" else below {chance_number(USED.screen_level)}",
     )
 
 
@@ -163,7 +163,7 @@ def of_localising(answer: Answer) -> Why:
     return Why(
         "generic functions of the misfit (mean, orders, branches, slopes) against the noise",
         f"{len(places)} tests of {counted(len({p['signal'] for p in places}), 'signal')}",
-        f"significant below {level:g} over all tests together (Holm); the smallest is {chance(answer.diagnosis.p_localise)}",
+        f"significant below {chance_number(level)} over all tests together (Holm); the smallest is {chance(answer.diagnosis.p_localise)}",
     )
 
 

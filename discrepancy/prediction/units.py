@@ -16,6 +16,7 @@ from rv_plant import plant
 from rv_plant.faults import FAULTS
 from rv_plant.gear_stage import total_ratio
 from rv_plant.needle_bearing import cage_rate
+from rv_plant.parts import cannot_be_made
 from wear_fmu import accumulator
 from wear_fmu.variables import Resolution
 
@@ -123,7 +124,8 @@ class Units:
         self.place(plants, first_angle, cage, **plant_values)
         fault = plant.initialise(plants)
         if fault:
-            raise RunFault(FAULTS[fault].format(**self.tables[0].scalars(plants)))
+            told = cannot_be_made(fault, plants, self.tables[0], self.reducer.topology, self.reducer.heading)
+            raise RunFault(told or FAULTS[fault].format(**self.tables[0].scalars(plants)))
         return plants
 
     def place(self, plants: np.ndarray, angle: float, cage: float = 0.0, **plant_values: float | Floats) -> None:

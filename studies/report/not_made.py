@@ -11,9 +11,9 @@ import numpy as np
 from fmu_src.arrays import Points
 from fmu_src.faults import InputFault, RunFault
 from pages.look import Figure, Trace, path
-from reducers.completion.geometry import HOLES, LOOPS, OUTPUT_HOLES, PINS, PLANETS, ROLLERS, ROOTS, UNDERCUT
 from reducers.reducer import Reducer
 from rv_plant.geometry import centre_curve_curvature, shortening
+from rv_plant.parts import HOLES, LOOPS, OUTPUT_HOLES, PINS, PLANETS, ROLLERS, ROOTS, UNDERCUT
 from studies.report.assembly import OFF, assembly, contours, eccentric, framed, lobe_flank, pin_places, zoom, zoomed
 from studies.report.shapes import MM, directions, joined, ring
 
@@ -36,7 +36,7 @@ class Marked:
 
 
 def drawings(reducer: Reducer, place: str | None, diameter: float | None = None) -> tuple[list[Figure], str]:
-    """The whole and a closer look at it; ``place`` of ``reducers.completion.geometry`` where it cannot be made, None where it can.
+    """The whole and a closer look at it; ``place`` of ``rv_plant.parts`` where it cannot be made, None where it can.
 
     Also what keeps forces from being drawn where that is another reason, in words.
     """

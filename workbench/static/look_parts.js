@@ -206,7 +206,7 @@ export const fails = (result, context) =>
                 titleOf(result, p.signal),
                 p.feature,
                 words(p.dependence),
-                `${percent(p.share)}, p = ${p.p.toExponential(0)}`,
+                `${percent(p.share)}, ${p.chance}`,
                 why(p.why, `${titleOf(result, p.signal)}, ${p.feature}`),
               ]),
             [3],

@@ -15,7 +15,7 @@ def with_given_instead(runs: Sequence[GuessedRun], wishes: Wishes) -> list[Guess
     """What is given for all files wins over what lines above their tables say, which is said where that is something else."""
     found = []
     for run in runs:
-        given = {("put_speed" if key.endswith("put_speed") else key): (key, text) for key, text in wishes.conditions.items() if ":" not in key}
+        given = {("put_speed" if key.endswith("put_speed") else key): (key, text) for key, text in wishes.for_all.items()}
         factors, doubts = dict(run.factors), list(run.doubts)
         for key in run.above:
             if pair := given.get("put_speed" if key.endswith("put_speed") else key):

@@ -28,7 +28,7 @@ from discrepancy.campaign.guess.same_number import ANY_REDUCER, figure_of, writt
 from discrepancy.campaign.guess.same_unit import with_one_unit
 from discrepancy.campaign.guess.told_once import merged
 from discrepancy.campaign.guess.whose_angle import whose_angle
-from discrepancy.campaign.guess.wishes import NAMED, OPEN, Wishes, of_column
+from discrepancy.campaign.guess.wishes import NAMED, OPEN, SPEEDS, Wishes, of_column
 from discrepancy.campaign.measurement_files import measurement_files
 from discrepancy.campaign.quantities import FACTOR_KEYS, QUANTITIES, RUNNING, roles_of
 from discrepancy.campaign.readers import ENDINGS
@@ -147,7 +147,7 @@ def state_of(run: GuessedRun, wishes: Wishes) -> State:
     """What the file says, and besides what is given for all."""
     said = {key: guess.value for key, guess in run.factors.items()}
     speed_said = any(key.endswith("put_speed") for key in said)
-    given = {key: spaced(text) for key, text in wishes.conditions.items() if ":" not in key and not (speed_said and key.endswith("put_speed"))}
+    given = {key: spaced(text) for key, text in wishes.for_all.items() if not (speed_said and key.endswith("put_speed"))}
     if LOCKED_AT in given and (angle := angle_for(run, given.pop(LOCKED_AT))):
         given[LOCKED_AT] = angle
     return State(tuple(sorted((given | said).items())), run.name.label, bool(said or run.name.label), run.quantity.value not in HELD)
@@ -194,7 +194,7 @@ def require_numbers(wishes: Wishes) -> None:
     """InputFault for a number of a condition that is none, or has a unit of another kind: said here, where it was typed."""
     for given, text in wishes.conditions.items():
         name = given.rpartition(":")[2]
-        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN) and (given, text) != (LOCKED_AT, NAMED):
+        if name in FACTOR_KEYS and (name, text) != (LOCKED_AT, MEAN) and not (text == NAMED and given in (LOCKED_AT, *SPEEDS)):
             ANY_REDUCER.number(FACTOR_KEYS[name], text, f"--condition {given}")
 
 

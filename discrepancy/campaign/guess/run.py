@@ -1,6 +1,7 @@
 """One file's run: its quantity, columns, units, tags."""
 
 import re
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -106,18 +107,20 @@ def guessed_run(path: Path, wishes: Wishes) -> GuessedRun:
     quantity = quantity_guess(found, wanted, path)
     doubts = [*table.doubts, *unsure_units(path, name), *not_taken(path, best, stated)]
     if not quantity.sure:
-        doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'"))
+        doubts.append(Doubt(path.name, f"taken for {quantity.value}: {quantity.reason}", f"--quantity '{path.name}=QUANTITY'",
+                            so=shlex.join(["--quantity", f"{path.name}={quantity.value}"])))  # fmt: skip
     by_name = {c.name: c for c in columns}
     entries = {}
     for role, guess in best.roles.items():
         if stated.get(role) == guess.value:
             guess = Guess(guess.value, "given")
         entries[role], more = entry(by_name[guess.value], role, quantity.value, guess, table, wishes)
-        doubts += [Doubt(path.name, text, remedy) for text, remedy in more]
+        doubts += [Doubt(path.name, text, remedy, so=so) for text, remedy, so in more]
         if not guess.sure:
-            doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'"))
+            doubts.append(Doubt(path.name, f"column {entries[role].header!r} is taken for {role}: {guess.reason}", f"--column '{role}=COLUMN'",
+                                so=shlex.join(["--column", f"{role}={entries[role].header}"])))  # fmt: skip
     tags, more_doubts = tags_of(quantity.value, text, speaking, wishes, path)
-    factors, actual, factor_doubts = factors_of(name, table, path, entries)
+    factors, actual, factor_doubts = factors_of(name, table, path, entries, wishes.speeds_of)
     if "load" in QUANTITIES[quantity.value].factors and "load_torque" not in factors.keys() | entries.keys() and unloaded(text):
         factors["load_torque"] = Guess("0 N.m", "the file's name or head says that nothing loads it")
     if quantity.value in HELD and LOCKED_AT not in entries.keys() | factors.keys() and (at := where_locked(path, table, tags)):
@@ -230,11 +233,11 @@ def quantity_guess(found: list[Assignment], wanted: str | None, path: Path) -> G
     return Guess(best.quantity, reason, sure)
 
 
-def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Table, wishes: Wishes) -> tuple[Entry, list[tuple[str, str]]]:
-    """A column's entry and its doubts, (text, remedy)."""
+def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Table, wishes: Wishes) -> tuple[Entry, list[tuple[str, str, str]]]:
+    """A column's entry and its doubts: text, remedy, and what states the guess."""
     header = table.headers.get(column.name, column.name)
     what = quantity if role == VALUE else role
-    doubts: list[tuple[str, str]] = []
+    doubts: list[tuple[str, str, str]] = []
     keys: dict[str, Any] = {}
     scale = of_column(wishes.scales, header, column.name) or 1.0
     if scale != 1.0:
@@ -244,11 +247,11 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
         if not counts:
             counts, why = steps_above(max(column.shape.high - min(column.shape.low, 0.0), 1.0))
             text = f"column {header!r} counts steps; {counts:.0f} a turn are assumed ({why})"
-            doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'"))
+            doubts.append((text, f"--counts '{header}=STEPS_PER_TURN'", shlex.join(["--counts", f"{header}={counts:.0f}"])))
         keys["scale"] = scale / float(counts)
         unit = Guess("turn", f"steps of an encoder, {counts:.0f} a turn")
         if column.shape.jumps:
-            doubts.append((f"column {header!r} jumps where a turn is over", "export it running on over full turns"))
+            doubts.append((f"column {header!r} jumps where a turn is over", "export it running on over full turns", ""))
         return Entry(guess, header, unit, keys), doubts
     if column.stated:
         unit = Guess(column.stated[0], column.stated[2])
@@ -257,7 +260,8 @@ def entry(column: Column, role: str, quantity: str, guess: Guess[str], table: Ta
         if written := unknown_in(header):
             unit = Guess(unit.value, f"[{written}] in its header is no unit that is known here; {unit.reason.partition('; ')[2]}", False)
         if not unit.sure:
-            doubts.append((f"unit of column {header!r} taken for {unit.value}: {unit.reason}", f"--unit '{header}=UNIT'"))
+            so = shlex.join(["--unit", f"{header}={unit.value}"])
+            doubts.append((f"unit of column {header!r} taken for {unit.value}: {unit.reason}", f"--unit '{header}=UNIT'", so))
     if column.shape.jumps and role in ANGLES:
         keys["unwrap"] = True
     if role == "time" and column.shape.low > FAR_START * column.shape.span:
@@ -288,7 +292,7 @@ def tags_of(quantity: str, text: str, name: str, wishes: Wishes, path: Path) -> 
             usual = {"surface": "flank", "locked": "input", "location": "housing_radial", "part": "reducer"}[tag]
             found[tag] = Guess(said or usual, "the file's name or head says so" if said else f"nothing says it; {usual} is usual", said is not None)
             if said is None:
-                doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD, {words_for(tag)}"))
+                doubts.append(Doubt(path.name, f"{tag} = {usual} is assumed", f"--tag {tag}=WORD, {words_for(tag)}", so=f"--tag {tag}={usual}"))
     return found, doubts
 
 

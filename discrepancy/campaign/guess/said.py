@@ -1,6 +1,6 @@
 """A guess with its reason."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 Value = TypeVar("Value")
@@ -20,14 +20,15 @@ class Guess(Generic[Value]):
 
 @dataclass(frozen=True)
 class Doubt:
-    """What is not known or not sure, and the option that settles it."""
+    """What is not known or not sure, and the option that settles it; ``so``: of a guess the options that state it as it is, so that it is asked no more."""
 
     place: str
     text: str
     remedy: str
+    so: str = field(default="", kw_only=True)
 
     def as_json(self) -> dict[str, str]:
-        return {"place": self.place, "text": self.text, "remedy": self.remedy}
+        return {"place": self.place, "text": self.text, "remedy": self.remedy, "so": self.so}
 
 
 @dataclass(frozen=True)

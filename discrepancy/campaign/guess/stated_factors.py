@@ -12,6 +12,7 @@ from discrepancy.campaign.guess.magnitudes import SIZES, speed_role
 from discrepancy.campaign.guess.name_and_head import contradiction, is_measured
 from discrepancy.campaign.guess.said import Doubt, Guess, SpeedBySize
 from discrepancy.campaign.guess.table import Table
+from discrepancy.campaign.guess.wishes import NAMED
 from fmu_src.units import UnitError, conversion
 
 # A speed that is stated and one that was measured are the same within this share.
@@ -19,9 +20,10 @@ SAME_SPEED = 0.05
 ABOVE = "a line above the table"
 
 
-def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry]) -> tuple[dict[str, Guess[str]], dict[str, str], list[Doubt]]:
+def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Entry],
+               speeds_of: str | None = None) -> tuple[dict[str, Guess[str]], dict[str, str], list[Doubt]]:  # fmt: skip
     """Key of a condition -> "15 rpm", from the file's name, else from the lines above its table; of those that the name says what such a line has
-    measured; doubts."""
+    measured; doubts.  ``speeds_of``: the shaft of which speeds are that nothing else tells, as it was given."""
     found: dict[str, Guess[str]] = {}
     actual: dict[str, str] = {}
     doubts = []
@@ -32,7 +34,7 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
             key, reason, sure = {"load": "load_torque"}.get(field, field), where, True
             if field == "speed":
                 rpm = conversion(unit, "rpm")[0] * number
-                side = speed_above(rpm, above) or speed_column(rpm, table, entries) or speed_role(rpm)
+                side = speed_above(rpm, above) or speed_column(rpm, table, entries) or (Guess(speeds_of, "given") if speeds_of else speed_role(rpm))
                 key, reason, sure = side.value, f"{where}; {side.reason}", side.sure
             text = f"{number:g} {unit}"
             if key in found:
@@ -47,7 +49,7 @@ def factors_of(name: Parsed, table: Table, path: Path, entries: Mapping[str, Ent
                 other = "output_speed" if key == "input_speed" else "input_speed"
                 remedy = f"--names with {{{other}}} in its place, or correct the condition"
                 told = f"{text} is taken for the {key}: {side.reason}"
-                doubts.append(SpeedBySize(path.name, told, remedy, text, key, SIZES[key]))
+                doubts.append(SpeedBySize(path.name, told, remedy, text, key, SIZES[key], so=f"--condition {key}={NAMED}"))
     if name.direction:
         found["direction"] = Guess(name.direction, f"the file's name, by {name.pattern!r}")
     if name.mounting:

@@ -14,9 +14,10 @@ def merged(doubts: Sequence[Doubt]) -> list[Doubt]:
         alike.setdefault((doubt.text, re.sub(r"'[^'=]*=QUANTITY'", "'FILES=QUANTITY'", doubt.remedy)), []).append(doubt)
     # The first of them stays what it is: what answers it hangs on that.
     return [
-        replace(same[0], place=same[0].place + (f" and {len(same) - 1} more" if len(same) > 1 else ""), remedy=remedy)
+        replace(same[0], place=same[0].place + (f" and {len(same) - 1} more" if len(same) > 1 else ""), remedy=remedy,
+                so=" ".join(dict.fromkeys(doubt.so for doubt in same if doubt.so)))
         for (_, remedy), same in alike.items()
-    ]
+    ]  # fmt: skip
 
 
 def with_speeds_together(doubts: Sequence[Doubt]) -> list[Doubt]:

@@ -46,4 +46,4 @@ def whose_angle(runs: Iterable[tuple[str, GuessedRun]], conditions: Mapping[str,
     if len(steps) == 1 and None not in steps:
         return Guess(OUTPUT, UNEVEN) if True in steps else Guess(INPUT, EVEN), []
     either = [run for run in loaded if "input_angle" not in run.columns and not beside_input(run) and run.of_output is None]
-    return Guess(OUTPUT, REASON, not either), [AngleAssumed(run.path.name, TEXT, REMEDY) for run in either]
+    return Guess(OUTPUT, REASON, not either), [AngleAssumed(run.path.name, TEXT, REMEDY, so=f"--angle-of {OUTPUT}") for run in either]

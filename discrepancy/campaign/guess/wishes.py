@@ -18,8 +18,9 @@ OPEN = "..."
 OUTPUT, INPUT = "output", "input"
 # Whether the mean of a quantity counts: from a zero that is known, or not.
 ABSOLUTE, FREE = "absolute", "free"
-# As ``locked_at``: the one angle in the name of each loop is where its input was locked.
+# As ``locked_at``: the one angle in the name of each loop is where its input was locked; as a speed: those that names and heads say are of that shaft.
 NAMED = "named"
+SPEEDS = ("input_speed", "output_speed")
 
 Value = TypeVar("Value")
 
@@ -72,6 +73,16 @@ class Wishes:
             if text == OPEN:
                 example = FACTOR_KEYS[own].example if (own := key.rpartition(":")[2]) in FACTOR_KEYS else "..."
                 raise InputFault(f"--condition {key}={OPEN}: put what it is in place of the dots, as in {own}={example}")
+
+    @property
+    def for_all(self) -> dict[str, str]:
+        """What is given of the conditions of all files, but for whose their speeds are."""
+        return {key: text for key, text in self.conditions.items() if ":" not in key and (key, text) not in [(speed, NAMED) for speed in SPEEDS]}
+
+    @property
+    def speeds_of(self) -> str | None:
+        """Of which shaft the speeds are that files do not say it of; None where nobody says it."""
+        return next((speed for speed in SPEEDS if self.conditions.get(speed) == NAMED), None)
 
     def quantity_for(self, name: str) -> str | None:
         return next((quantity for pattern, quantity in self.quantities.items() if fnmatch(name, pattern)), None)
