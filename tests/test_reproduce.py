@@ -158,7 +158,7 @@ def test_a_coarser_run_is_not_called_as_the_one_it_is_held_against(monkeypatch):
 
 
 def test_page_is_offline_complete_and_deterministic(claims, page, tmp_path):
-    again = [c for c in QUICK if c not in LONGEST]
+    again = [c for c in QUICK if c not in LONGEST][::3]
     assert page_of([c for c in claims if c.id in again]) == page_of(run(again))
     shown = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
     assert not re.search(r"(src|href)=[\"'](?!#)", shown) and "@import" not in shown and "url(" not in shown
