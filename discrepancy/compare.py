@@ -9,9 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy import as_told
-from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound
-from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
+from discrepancy.alike.untold import parts_untold_before
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
@@ -19,28 +17,30 @@ from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.repetition_words import copied_words, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
-from discrepancy.figure_chance import chance_text
+from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound
+from discrepancy.doubts.calibrated_doubts import calibrated_doubts, softer_by_loops
+from discrepancy.doubts.locked_doubts import locked_doubts
+from discrepancy.doubts.locked_zeros import zero_texts
+from discrepancy.doubts.plausible import doubts_of
+from discrepancy.doubts.unstated_texts import place_texts
+from discrepancy.figures.figure_chance import chance_text
+from discrepancy.figures.key_figures import KeyFigure, key_figures
+from discrepancy.figures.stiffest import too_soft
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
-from discrepancy.key_figures import KeyFigure, key_figures
-from discrepancy.locked_doubts import locked_doubts
-from discrepancy.locked_zeros import zero_texts
 from discrepancy.model_file import ModelFile
 from discrepancy.outlying_samples import outlying_samples
-from discrepancy.plausible import doubts_of
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
 from discrepancy.repetitions import Outlying, outlying
 from discrepancy.scales import Scale, of_calibrated, shown
-from discrepancy.standing_notes import floating_of, standing_notes
-from discrepancy.stiffest import too_soft
-from discrepancy.unstated_texts import place_texts
-from discrepancy.untold import parts_untold_before
+from discrepancy.words import as_told
+from discrepancy.words.standing_notes import floating_of, standing_notes
 from fmu_src.arrays import Floats
 from fmu_src.threads import sharing_no_matrices
 from reducers.reducer import Reducer

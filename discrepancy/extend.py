@@ -10,29 +10,29 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
-from discrepancy import as_told
-from discrepancy.already_there import AlreadyThere, numbers_of
+from discrepancy.alike.already_there import AlreadyThere, numbers_of
+from discrepancy.alike.opposite_sign import others_of
+from discrepancy.alike.ring_directions import either_texts
+from discrepancy.alike.untold import parts_untold
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, figures_of, runs_of
+from discrepancy.doubts.locked_zeros import zeros_told
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.held_out.held_out import SEEN, WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.refit import Refit, estimates, leave_condition_out
 from discrepancy.inference.telling import with_base
 from discrepancy.inference.verdict import Settings
-from discrepancy.intervals import relied_on
-from discrepancy.key_figures import KeyFigure
-from discrepancy.locked_zeros import zeros_told
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import others_of
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate
-from discrepancy.ring_directions import either_texts
-from discrepancy.sample_errors import OF_PATTERNS, PATTERNS, patterns_text, plain, samples_text
-from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
-from discrepancy.written_number import digits_of, rounded
+from discrepancy.words import as_told
+from discrepancy.words.intervals import relied_on
+from discrepancy.words.sample_errors import OF_PATTERNS, PATTERNS, patterns_text, plain, samples_text
+from discrepancy.words.written_number import digits_of, rounded
 from fmu_src.faults import InputFault
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices

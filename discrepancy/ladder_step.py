@@ -6,7 +6,7 @@ from typing import Any
 
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.model_file import SignalEntry
-from discrepancy.sample_errors import furthest_off
+from discrepancy.words.sample_errors import furthest_off
 from fmu_src.effect_words import effect_words
 
 

@@ -25,7 +25,7 @@ from discrepancy.campaign.amount import is_number, split
 from discrepancy.counted_from import ZERO, zero_texts, zeros_of
 from discrepancy.effects import EFFECTS as CHAIN_EFFECTS
 from discrepancy.refused_file import only_refused
-from discrepancy.written_number import told_of, written_entry, written_setting
+from discrepancy.words.written_number import told_of, written_entry, written_setting
 from fmu_src.checked_file import write_text
 from fmu_src.display import display_unit
 from fmu_src.effect import Effect

@@ -8,8 +8,8 @@ from typing import Any
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
-from discrepancy.intervals import both_texts, digits_of, estimate_text, relied_on
 from discrepancy.problem import is_direction
+from discrepancy.words.intervals import both_texts, digits_of, estimate_text, relied_on
 from fmu_src.display import display_unit
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable

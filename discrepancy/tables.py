@@ -8,21 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.as_told import tables_of as tables_in
-from discrepancy.as_told import told_name
-from discrepancy.calibrated_deviations import deviations_of, doubt_of
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import Comparison, calibrated_numbers
+from discrepancy.doubts.calibrated_deviations import deviations_of, doubt_of
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.intervals import relied_on
-from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.scales import of_axis, of_estimate, of_signal
 from discrepancy.verdict import Answer
+from discrepancy.words.as_told import tables_of as tables_in
+from discrepancy.words.as_told import told_name
+from discrepancy.words.intervals import relied_on
 from exports.tables import Column, Table, rows_table
 from fmu_src.arrays import Floats, Mask
 

@@ -11,33 +11,33 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from discrepancy import as_told
-from discrepancy.beside_none import beside_none
-from discrepancy.calibrated_doubts import calibrated_doubts, softer_by_loops
+from discrepancy.alike.opposite_sign import with_others
+from discrepancy.alike.other_places import placed
+from discrepancy.alike.ring_directions import either_texts, ring_texts, seen_from_crank
+from discrepancy.alike.unsearched_places import unsearched_text
+from discrepancy.alike.untold import origins_untold, parts_untold_before
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import beforehand, figures_of, warnings_of
-from discrepancy.figure_chance import chance_text
-from discrepancy.hidden_by_position import hidden_by_position
+from discrepancy.doubts.calibrated_doubts import calibrated_doubts, softer_by_loops
+from discrepancy.doubts.hidden_by_position import hidden_by_position
+from discrepancy.doubts.locked_zeros import zero_texts, zeros_told
+from discrepancy.doubts.unstated_texts import unstated_texts
+from discrepancy.doubts.whose_angle import gained_as_input
+from discrepancy.figures.beside_none import beside_none
+from discrepancy.figures.figure_chance import chance_text
+from discrepancy.figures.key_figures import KeyFigure, calibrated_first
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.profile import Profile
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, Diagnosis, Settings
-from discrepancy.key_figures import KeyFigure, calibrated_first
-from discrepancy.locked_zeros import zero_texts, zeros_told
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import with_others
-from discrepancy.other_places import placed
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.ring_directions import either_texts, ring_texts, seen_from_crank
 from discrepancy.scales import of_axis, of_signal, unit_of_axis
-from discrepancy.unsearched_places import unsearched_text
-from discrepancy.unstated_texts import unstated_texts
-from discrepancy.untold import origins_untold, parts_untold_before
-from discrepancy.waves import waves_of
-from discrepancy.whose_angle import gained_as_input
-from discrepancy.would_show import WouldShow, would_show
+from discrepancy.words import as_told
+from discrepancy.words.waves import waves_of
+from discrepancy.words.would_show import WouldShow, would_show
 from fmu_src.progress import task
 from fmu_src.threads import sharing_no_matrices
 

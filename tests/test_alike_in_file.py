@@ -8,9 +8,9 @@ import pytest
 
 from cli.show.comparison import show_extension
 from discrepancy.compare import compare
+from discrepancy.experiment.next_run import questions_left
 from discrepancy.extend import extend
 from discrepancy.model_file import ModelFile, load_model, save_model
-from discrepancy.next_run import questions_left
 from discrepancy.page.extension import extension_page, model_page, parameters
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record

@@ -2,12 +2,12 @@
 
 import pytest
 
-from discrepancy import as_told
 from discrepancy.compare import compare
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.verdict import BaseError
-from discrepancy.key_figures import KeyFigure
 from discrepancy.ladder_step import step_of
 from discrepancy.model_file import load_model
+from discrepancy.words import as_told
 
 
 @pytest.fixture(scope="module")

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from discrepancy.campaign.model import Campaign
+from discrepancy.experiment.next_run import proposal_for
 from discrepancy.extend import extend
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.diagnose import diagnose as inferred
 from discrepancy.inference.screening import screen
 from discrepancy.inference.verdict import BASE_OFF, NONE, ONE, UNKNOWN, Settings, decide
 from discrepancy.model_file import load_model, save_model
-from discrepancy.next_run import proposal_for
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate, Parameter, Record

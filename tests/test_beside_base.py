@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from test_inference_toy import CANDIDATES, Toy, campaign
 
-from discrepancy import as_told
 from discrepancy.extend import intervals_of
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.beside_base import WIDER, widened
 from discrepancy.problem import BASE, Candidate
-from discrepancy.wording import with_base_text
+from discrepancy.words import as_told
+from discrepancy.words.wording import with_base_text
 
 KNOWN_TO = 1.0
 

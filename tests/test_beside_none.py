@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from discrepancy import verdict
-from discrepancy.beside_none import beside_none
-from discrepancy.key_figures import KeyFigure
+from discrepancy.figures.beside_none import beside_none
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.page.answer import sentence
 from tests.test_discrepancy_page import diagnosed, model_of
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from discrepancy.calibrated_doubts import calibrated_doubts, lag_doubts, softer_by_loops
+from discrepancy.doubts.calibrated_doubts import calibrated_doubts, lag_doubts, softer_by_loops
+from discrepancy.figures.key_figures import STIFFNESS, KeyFigure
 from discrepancy.inference.base_fit.fit import fit_of
-from discrepancy.key_figures import STIFFNESS, KeyFigure
 from discrepancy.ladder_step import step_of
 from discrepancy.page.extension import model_page
 from discrepancy.problem import Parameter, Record
-from discrepancy.wording import signals_left
+from discrepancy.words.wording import signals_left
 
 
 def doubts(value, deviation=0.01, name="lag_share", off=1.0, lower=0.0, upper=12.0, prior=None, records=()):
@@ -117,8 +117,8 @@ def test_where_the_model_misses_the_data_no_deviation_is_told():
     """"lag_share = 1.271e-05 +- 0.063" stood there above "is known to 1.2 only", and with the missing effect it was 1.017."""
     from types import SimpleNamespace
 
-    from discrepancy.calibrated_deviations import AT_BOUND, unsure_text
     from discrepancy.compare import calibrated_texts
+    from discrepancy.doubts.calibrated_deviations import AT_BOUND, unsure_text
     from discrepancy.problem import Parameter
 
     lag = Parameter("lag_share", "1", 1.0, 0.0, 10.0, 0.3)
@@ -161,8 +161,8 @@ def test_a_number_at_its_bound_is_doubted_wherever_it_is_told():
     """``lag_share,0.0`` stood in a table that other programs read, and "lag_share = 0" on the screen, as if it had been measured."""
     from types import SimpleNamespace
 
-    from discrepancy.calibrated_deviations import AT_BOUND, doubt_of
     from discrepancy.compare import calibrated_texts
+    from discrepancy.doubts.calibrated_deviations import AT_BOUND, doubt_of
     from discrepancy.tables import calibrated_rows
     from workbench.look import calibrated
 
@@ -185,7 +185,7 @@ def test_a_number_at_its_bound_is_doubted_wherever_it_is_told():
 
 def test_a_zero_of_angles_has_one_unit_wherever_it_is_told():
     """94 arcmin in the base model, 5.7 deg in the extended one."""
-    from discrepancy import as_told
+    from discrepancy.words import as_told
 
     told = [as_told.numbers({"angle_zero[1]": value, "other": value}, {"angle_zero[1]": "rad", "other": "rad"}, ()) for value in (0.02736, 0.0995)]
     assert [entry["angle_zero[1]"]["unit"] for entry in told] == ["deg", "deg"] and told[0]["other"]["unit"] == "arcmin"

@@ -10,8 +10,8 @@ from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.doubts import jumps, path, suffices
 from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import beforehand
+from discrepancy.doubts.plausible import fitting, scale_doubts
 from discrepancy.model_file import load_model
-from discrepancy.plausible import fitting, scale_doubts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 

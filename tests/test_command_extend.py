@@ -11,7 +11,7 @@ import pytest
 from cli.commands import comparison as commands
 from cli.main import main, parser
 from discrepancy import extend as extension
-from discrepancy.already_there import AlreadyThere
+from discrepancy.alike.already_there import AlreadyThere
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, UNKNOWN

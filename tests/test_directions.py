@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from discrepancy import as_told
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.refit.directions import half_a_turn_on, period
 from discrepancy.model_file import every_effect, load_model, parameter_variable
@@ -13,7 +12,8 @@ from discrepancy.page import amounts
 from discrepancy.prediction.candidates import parameter_of
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import estimate_texts, of_variable
-from discrepancy.written_number import written_entry
+from discrepancy.words import as_told
+from discrepancy.words.written_number import written_entry
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "hidden_effect" / "campaign"
 ARCMIN = math.radians(1.0 / 60.0)

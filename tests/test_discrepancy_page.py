@@ -12,18 +12,17 @@ import pytest
 from shared import unpacked
 
 from cli.show.comparison import show_answer
+from discrepancy.alike.other_places import LookAlike, place_text
 from discrepancy.compare import Comparison, by_signal, warnings_of
+from discrepancy.experiment.next_run import NextRun
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, Extension
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import recover
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.intervals import UNDETERMINED
-from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun
-from discrepancy.other_places import LookAlike, place_text
 from discrepancy.page import amounts, ladder_picture, write_page
 from discrepancy.page.answer import headline
 from discrepancy.page.changed_figures import changed_figures
@@ -34,6 +33,7 @@ from discrepancy.page.spectra import sizes, spectrum
 from discrepancy.problem import Candidate, Parameter, Record
 from discrepancy.scales import AXES
 from discrepancy.verdict import Answer, effects_of
+from discrepancy.words.intervals import UNDETERMINED
 from pages.words import counted
 
 ARCSEC = np.pi / 180.0 / 3600.0

@@ -6,8 +6,8 @@ import pytest
 
 from cli.screen import WIDTH, console
 from cli.show.comparison import show_figures
-from discrepancy.figure_chance import chance_text, rarest
-from discrepancy.key_figures import KeyFigure, repetitions_beyond
+from discrepancy.figures.figure_chance import chance_text, rarest
+from discrepancy.figures.key_figures import KeyFigure, repetitions_beyond
 from discrepancy.model_file import load_model
 from discrepancy.page.comparison import figures_section
 

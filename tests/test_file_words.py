@@ -5,12 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from discrepancy.calibrated_doubts import OF_INPUT, lag_doubts
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.unplaced import unplaced
 from discrepancy.campaign.zeros import unused_means
-from discrepancy.locked_zeros import zero_text
+from discrepancy.doubts.calibrated_doubts import OF_INPUT, lag_doubts
+from discrepancy.doubts.locked_zeros import zero_text
 from discrepancy.problem import Record
 from tests import zero_campaign
 from workbench.page_words import on_page

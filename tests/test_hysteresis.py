@@ -7,7 +7,7 @@ import pytest
 
 import rvwear
 from cli.main import main, parser
-from discrepancy.key_figures import LOST_MOTION, WIDTH, of_loop
+from discrepancy.figures.key_figures import LOST_MOTION, WIDTH, of_loop
 from discrepancy.named_reducer import named_reducer
 from orchestrator.settings import parse_setting
 from reducers.reducer import load_reducer

@@ -9,7 +9,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.telling import beyond, by_weight, meaning
 from discrepancy.inference.verdict import SET
 from discrepancy.problem import Candidate, Parameter
-from discrepancy.wording import told_apart_by
+from discrepancy.words.wording import told_apart_by
 from tests.test_base_off import CANDIDATES, amplitude, bench
 
 

@@ -227,7 +227,8 @@ def test_commands_that_begin_with_a_diagnosis_tell_what_was_known(monkeypatch, c
     """`extend --draft` ran for 16 minutes, and said "interrupted"."""
     from cli.commands import comparison
     from cli.main import main
-    from discrepancy import next_run, remembered, verdict
+    from discrepancy import remembered, verdict
+    from discrepancy.experiment import next_run
 
     def stopped(*given, **how):
         raise verdict.AnswerSoFar(SimpleNamespace(reason="stopped while screening", as_json=lambda: {"verdict": STOPPED}))
@@ -245,8 +246,9 @@ def test_commands_that_begin_with_a_diagnosis_tell_what_was_known(monkeypatch, c
 def test_interrupted_after_the_diagnosis_what_is_kept_is_said(monkeypatch, capsys, tmp_path):
     from cli.commands import comparison, drafting
     from cli.main import main
-    from discrepancy import extend, next_run, remembered
+    from discrepancy import extend, remembered
     from discrepancy.draft import choose
+    from discrepancy.experiment import next_run
 
     def stop(*given, **how):
         raise KeyboardInterrupt

@@ -7,10 +7,10 @@ import pytest
 from cli.show.ensemble import cell
 from discrepancy.campaign.amount import readable
 from discrepancy.inference.law.closed_forms import Form
-from discrepancy.intervals import UNDETERMINED, digits_of, estimate_text, general, interval_text
 from discrepancy.page import amounts
 from discrepancy.scales import Scale, estimate_texts
-from discrepancy.wording import with_base_text
+from discrepancy.words.intervals import UNDETERMINED, digits_of, estimate_text, general, interval_text
+from discrepancy.words.wording import with_base_text
 from pages.words import number
 
 NARROW = {"value": 3.9996e-6, "interval": (3.99817e-6, 4.00131e-6), "interval_with_base": (3.99702e-6, 4.00244e-6), "unit": "m"}

@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from discrepancy.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
+from discrepancy.figures.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
+from discrepancy.figures.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
+from discrepancy.figures.stiffest import SUPPORTS, times_with_rigid_supports, too_soft
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
 from discrepancy.prediction import bench as virtual
 from discrepancy.prediction.orders import ROLLERS, named_orders
 from discrepancy.problem import Candidate, Parameter, Record
-from discrepancy.stiffest import SUPPORTS, times_with_rigid_supports, too_soft
 from reducers.reducer import load_reducer
 from rv_plant import supports
 from rvwear import hysteresis

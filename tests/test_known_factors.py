@@ -11,8 +11,8 @@ from test_campaign_doubts import LOOP, RATED, loop_file
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Source
-from discrepancy.known_factors import known_factor
-from discrepancy.plausible import scale_doubts
+from discrepancy.doubts.known_factors import known_factor
+from discrepancy.doubts.plausible import scale_doubts
 
 PER_RAD = 10800.0 / np.pi
 

@@ -12,7 +12,7 @@ import rvwear
 from benchmarks.locked_position import departure, loops
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
-from discrepancy.locked_doubts import locked_doubts
+from discrepancy.doubts.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import angle_zero, identity

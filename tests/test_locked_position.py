@@ -13,19 +13,19 @@ from benchmarks.unplaced_loops import ARCSEC, Case, measured, there_and_back
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import compare
+from discrepancy.doubts.hidden_by_position import POSITION
+from discrepancy.doubts.locked_doubts import locked_doubts
+from discrepancy.experiment.rig_runs import Measurement, at_a_position
 from discrepancy.held_names import LOCKED_AT
-from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.next_experiment import Experiment
 from discrepancy.inference.refit.confusable import PER_PARAMETER, penalised
 from discrepancy.inference.verdict import ONE, SEVERAL
-from discrepancy.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import HELD_ANGLES
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.positions import departures, position_scores
 from discrepancy.problem import Candidate, Parameter, Record, is_loop, is_unplaced
-from discrepancy.rig_runs import Measurement, at_a_position
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
 from studies import coupled

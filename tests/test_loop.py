@@ -9,10 +9,10 @@ import pytest
 from cli.progress import new_screen
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.compare import compare
+from discrepancy.experiment.next_run import proposal_for
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.model_file import extended_reducer, load_model, save_model
-from discrepancy.next_run import proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose

@@ -40,7 +40,7 @@ def test_samples_that_are_not_compared_are_counted_and_exported_without_a_predic
 
 def test_a_diagnosis_says_standing_notes_in_few_words():
     """The same three long notes stood below every command."""
-    from discrepancy.standing_notes import floating_text, shortened
+    from discrepancy.words.standing_notes import floating_text, shortened
 
     whole = floating_text({"loop_1": 29, "loop_2": 29})
     assert whole.startswith("58 samples of 2 runs not compared") and len(whole) < 260

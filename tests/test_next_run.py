@@ -8,19 +8,19 @@ import pytest
 
 from cli.screen import console
 from cli.show.comparison import show_asked, show_next
+from discrepancy.alike.ring_directions import either_texts
+from discrepancy.alike.untold import parts_untold
 from discrepancy.campaign.model import Campaign, Rig
+from discrepancy.experiment.next_run import NextRun, proposal_for
+from discrepancy.experiment.rig_runs import at_rated, conditions, describe, possible
+from discrepancy.experiment.weighed_runs import measured_in
 from discrepancy.inference.next_experiment import Experiment, Proposal, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun, proposal_for
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.rig_runs import at_rated, conditions, describe, possible
-from discrepancy.ring_directions import either_texts
-from discrepancy.untold import parts_untold
 from discrepancy.verdict import Answer
-from discrepancy.weighed_runs import measured_in
 from reducers.reducer import load_reducer
 
 RV = load_reducer("RV20E-121")

@@ -6,19 +6,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from discrepancy import as_told, weighed_runs
+from discrepancy.alike.opposite_sign import with_others
+from discrepancy.alike.ring_directions import either_texts, ring_texts, seen_from_crank
+from discrepancy.experiment import weighed_runs
+from discrepancy.experiment.weighed_runs import law_of, telling_either
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Proposal
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.verdict import ONE, STOPPED
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import with_others
 from discrepancy.page import amounts
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.ring_directions import either_texts, ring_texts, seen_from_crank
 from discrepancy.scales import estimate_texts
-from discrepancy.weighed_runs import law_of, telling_either
+from discrepancy.words import as_told
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 

@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from discrepancy.alike.other_places import look_alikes, place_of, placed
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.verdict import ONE, STOPPED
 from discrepancy.model_file import ModelFile
-from discrepancy.other_places import look_alikes, place_of, placed
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.wording import turned_down, variant_text
+from discrepancy.words.wording import turned_down, variant_text
 from reducers.reducer import load_reducer
 
 FACTORS = {"speed": 209.44, "load": 167.0, "temperature": 293.15, "direction": 1.0}

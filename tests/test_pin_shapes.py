@@ -7,8 +7,8 @@ import numpy as np
 
 from discrepancy.inference.verdict import ONE
 from discrepancy.page.answer import headline
-from discrepancy.pin_shapes import shape_text
 from discrepancy.problem import Record
+from discrepancy.words.pin_shapes import shape_text
 from tests.test_next_run import CAMPAIGN
 
 OVAL = {"name": "pin_position_errors", "variant": "ovality", "parameters": {"pin_ring_ovality": {}, "pin_ring_ovality_angle": {}}}

@@ -11,17 +11,17 @@ import pytest
 from cli.bars import Bars
 from cli.screen import console, figures, styled
 from cli.show import comparison as shows
+from discrepancy.experiment.next_run import Asked, NextRun
 from discrepancy.extend import verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
-from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import load_model
-from discrepancy.next_run import Asked, NextRun
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
 from discrepancy.verdict import added_of, instead_of, merged
-from discrepancy.wording import error_text, is_shown, left_text, share_text, shares_text, tone
+from discrepancy.words.left_sizes import left_sizes
+from discrepancy.words.wording import error_text, is_shown, left_text, share_text, shares_text, tone
 from fmu_src.progress import Task
 
 CLI = Path(__file__).resolve().parents[1] / "cli"

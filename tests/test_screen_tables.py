@@ -17,7 +17,7 @@ from cli.show.comparison import show_figures
 from cli.show.life import LIFE_COLUMNS, life_table
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
-from discrepancy.key_figures import KeyFigure
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.model_file import load_model
 from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.comparison import figures_section

@@ -11,7 +11,7 @@ from cli.commands import campaign as campaign_commands
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.planned import with_planned
 from discrepancy.campaign.template import write_template
-from discrepancy.separability import separability, thinned
+from discrepancy.experiment.separability import separability, thinned
 from fmu_src.faults import InputFault
 
 CONDITION = """[conditions.c{k}]

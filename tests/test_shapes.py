@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from discrepancy.held_shapes import held_text
 from discrepancy.model_file import every_effect, load_model
 from discrepancy.prediction.candidates import candidates
 from discrepancy.problem import Record
+from discrepancy.words.held_shapes import held_text
 from fmu_src.effect import Effect, amplitude, shape
 
 # What the catalogue holds: conditions that others state, and numbers that no campaign of these signals shows.

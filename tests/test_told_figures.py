@@ -4,10 +4,10 @@ from dataclasses import replace
 
 from cli.screen import WIDTH, console
 from cli.show.comparison import show_figures
-from discrepancy.key_figures import LOST_MOTION, STIFFNESS, KeyFigure
+from discrepancy.figures.key_figures import LOST_MOTION, STIFFNESS, KeyFigure
+from discrepancy.figures.told_figures import MOST, others_text, told_figures
 from discrepancy.model_file import load_model
 from discrepancy.page.comparison import figures_section
-from discrepancy.told_figures import MOST, others_text, told_figures
 
 ANY = KeyFigure("transmission_error", "50N.m", "order 1", "rad", 2.0, 1.0, 0.1, 2, True)
 # Nearest of all, and what one asks for.

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from discrepancy.alike.unsearched_places import turned, unsearched_places, unsearched_text
 from discrepancy.model_file import ModelFile, load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.unsearched_places import turned, unsearched_places, unsearched_text
 from discrepancy.verdict import diagnose
 from reducers.reducer import load_reducer
 from rv_plant.topology import Topology

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from discrepancy.waves import waves_of
+from discrepancy.words.waves import waves_of
 
 
 def estimate(value, deviation, unit="rad"):

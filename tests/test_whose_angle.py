@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from zero_campaign import ARCSEC, REDUCER, written
 
-from discrepancy.calibrated_doubts import lag_doubts
 from discrepancy.campaign.load import load_campaign
+from discrepancy.doubts.calibrated_doubts import lag_doubts
+from discrepancy.doubts.whose_angle import gained_as_input
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.model_file import load_model
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.whose_angle import gained_as_input
 
 
 def as_output(path):

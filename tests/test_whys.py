@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.next_experiment import Proposal
-from discrepancy.key_figures import KeyFigure
 from discrepancy.page import whys
 from discrepancy.page.maps import localisation
 from pages.content import Card, Page, Section, Table, Why

@@ -103,8 +103,8 @@ def test_a_diagnosis_that_was_kept_is_said_to_be_found_again(tmp_path, monkeypat
 
 
 def test_a_note_on_loops_or_an_angle_knows_the_cell_that_answers_it():
-    from discrepancy.calibrated_doubts import OF_INPUT
     from discrepancy.campaign.unplaced import QUESTION
+    from discrepancy.doubts.calibrated_doubts import OF_INPUT
     from discrepancy.problem import Record
     from workbench.doubts import cells_of
 

@@ -32,7 +32,7 @@ def test_what_commands_and_page_share_names_fields_and_buttons_on_the_page(said,
 
 def test_the_remedy_of_a_scale_is_said_in_words_of_the_page():
     from discrepancy.campaign.model import Source
-    from discrepancy.known_factors import known_factor
+    from discrepancy.doubts.known_factors import known_factor
     from workbench.page_words import on_page
 
     factor = known_factor(3438.0, "arcmin", "rad", None)
@@ -67,7 +67,7 @@ def test_numbers_in_what_a_page_says_have_a_minus_and_names_their_hyphen():
 
 
 def test_numbers_have_as_many_decimals_as_their_noise():
-    from discrepancy.figure_digits import decimals_of, text_of
+    from discrepancy.figures.figure_digits import decimals_of, text_of
 
     assert [decimals_of(noise) for noise in (22.0, 1.9, 0.0073, 0.0)] == [0, 1, 4, 4]
     assert text_of(-0.011412, decimals_of(0.0082)) == "−0.0114" and text_of(1440.951, 0) == "1,441"

@@ -17,7 +17,7 @@ from discrepancy.inference.screening.visible import NINETY_FIVE, Visible
 from discrepancy.inference.verdict import NONE
 from discrepancy.page.would_show import section
 from discrepancy.problem import Candidate, Parameter, Record
-from discrepancy.would_show import WouldShow, rows
+from discrepancy.words.would_show import WouldShow, rows
 from fmu_src.effect_words import effects_words
 
 ANGLE = np.linspace(0.0, 2.0 * math.pi, 400, endpoint=False)

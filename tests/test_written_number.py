@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.model_file import ModelFile, every_effect, load_model, save_model
-from discrepancy.written_number import digits_of, rounded
+from discrepancy.words.written_number import digits_of, rounded
 from reducers.reducer import load_reducer
 
 # Chosen so that every value has all the digits that a float has.

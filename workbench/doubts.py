@@ -4,12 +4,12 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from discrepancy.calibrated_doubts import OF_INPUT
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.mending import TITLES
 from discrepancy.campaign.repetition_words import words
 from discrepancy.campaign.unplaced import QUESTION, unplaced_in
+from discrepancy.doubts.calibrated_doubts import OF_INPUT
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.page.amounts import with_titles
 from discrepancy.repetitions import outlying

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 def left_open(answer: "Answer") -> list[str]:
     """Of an answer: parts, origins, and directions or signs that show the same."""
+    from discrepancy.alike.untold import parts_untold
     from discrepancy.page.amounts import with_titles
-    from discrepancy.untold import parts_untold
 
     texts = [*parts_untold(answer.effects), *answer.untold]
     return [sentence(with_titles(text)) for text in dict.fromkeys(texts)]
@@ -24,9 +24,9 @@ def left_open(answer: "Answer") -> list[str]:
 
 def left_open_in(file: "ModelFile", folder: Folder) -> list[str]:
     """Of a model file: the parts as the diagnosis left them open, and the origins that the folder's campaign does not tell."""
+    from discrepancy.alike.untold import origins_untold, parts_untold_before
     from discrepancy.campaign.load import load_campaign
     from discrepancy.campaign.pairs import PAIRS
-    from discrepancy.untold import origins_untold, parts_untold_before
 
     texts = parts_untold_before(file)
     # Reading a campaign takes seconds.

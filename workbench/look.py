@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import Comparison, calibrated_numbers, with_deviation
-from discrepancy.figure_digits import figure_texts
+from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
+from discrepancy.figures.figure_digits import figure_texts
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.chance import chance
-from discrepancy.key_figures import KeyFigure
 from discrepancy.page import amounts, spectra, whys
 from discrepancy.page.runs import Run, axis_name, axis_of, by_signal, runs_of
 from discrepancy.problem import ORDERS

@@ -8,11 +8,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from discrepancy.as_told import is_direction
-from discrepancy.intervals import both_texts
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
 from discrepancy.scales import of_number
-from discrepancy.written_number import written_entry
+from discrepancy.words.as_told import is_direction
+from discrepancy.words.intervals import both_texts
+from discrepancy.words.written_number import written_entry
 from fmu_src.checked_file import write_text
 from fmu_src.effect_words import effect_title
 from fmu_src.faults import InputFault, RunFault

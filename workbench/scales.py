@@ -3,7 +3,7 @@
 from typing import Any
 
 from discrepancy.campaign.load import load_campaign
-from discrepancy.plausible import scale_doubts
+from discrepancy.doubts.plausible import scale_doubts
 from fmu_src.faults import InputFault
 from workbench.doubts import as_told
 from workbench.folder import Folder

@@ -101,13 +101,13 @@ def diagnose_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path)
 
 
 def answer_data(answer: "Answer") -> dict[str, Any]:
-    from discrepancy.held_shapes import held_text
-    from discrepancy.left_sizes import left_sizes
     from discrepancy.page.amounts import signal_title, with_minus, with_titles
     from discrepancy.page.answer import headline, reason_text
     from discrepancy.page.write import page_of
     from discrepancy.verdict import added_of, instead_of
-    from discrepancy.wording import (
+    from discrepancy.words.held_shapes import held_text
+    from discrepancy.words.left_sizes import left_sizes
+    from discrepancy.words.wording import (
         base_texts,
         error_text,
         fitted_together,
@@ -153,11 +153,11 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
 
 
 def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
-    from discrepancy.as_told import tables_of, told_name
     from discrepancy.page.amounts import pretty, with_minus
     from discrepancy.page.whys import of_estimate
     from discrepancy.scales import estimate_texts
-    from discrepancy.wording import with_base_text
+    from discrepancy.words.as_told import tables_of, told_name
+    from discrepancy.words.wording import with_base_text
 
     found = []
     for name, entry in given.items():
@@ -170,7 +170,7 @@ def parameters(answer: "Answer", given: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
-    from discrepancy.next_run import next_run
+    from discrepancy.experiment.next_run import next_run
     from discrepancy.page.amounts import with_titles
     from discrepancy.page.write import page_of
 
@@ -196,7 +196,7 @@ def extend_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -
     from discrepancy.page.amounts import signal_title
     from discrepancy.page.write import page_of
     from discrepancy.remembered import extended
-    from discrepancy.wording import signals_left
+    from discrepancy.words.wording import signals_left
     from fmu_src.held_file import held
 
     names = [str(name) for name in given.get("effects", [])]

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.as_told import tables_of
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
 from discrepancy.inference.noise.series import stream_of
@@ -20,6 +19,7 @@ from discrepancy.prediction.candidates import parameter_of
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, ORDERS, Candidate, Parameter, Record
 from discrepancy.scales import Scale, of_axis, of_number, of_parameter
+from discrepancy.words.as_told import tables_of
 from fmu_src.arrays import Floats
 from fmu_src.effect import EffectParameter
 from fmu_src.effect_words import effect_title

@@ -38,10 +38,10 @@ from benchmarks.blind_trial.tool import answer_of, model_of
 from benchmarks.blind_trial.words import EXPERIMENTS, ONE, PROPOSED, RANDOM, RESULTS, SET
 from discrepancy.campaign.load import load_campaign
 from discrepancy.campaign.model import Campaign
+from discrepancy.experiment.next_run import NextRun, next_run
+from discrepancy.experiment.rig_runs import Measurement, possible
 from discrepancy.inference.next_experiment import RivalLaw, rival_of
-from discrepancy.next_run import NextRun, next_run
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.rig_runs import Measurement, possible
 from fmu_src.arrays import Floats
 
 RIG = """[rig]

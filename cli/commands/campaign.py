@@ -60,8 +60,8 @@ def run_check(options: argparse.Namespace) -> int:
     from cli.show.campaign import show, show_separability
     from discrepancy.campaign.check import check_campaign
     from discrepancy.campaign.load import load_campaign
-    from discrepancy.locked_doubts import locked_doubts
-    from discrepancy.plausible import scale_doubts
+    from discrepancy.doubts.locked_doubts import locked_doubts
+    from discrepancy.doubts.plausible import scale_doubts
 
     with task("reading the campaign"):
         campaign = load_campaign(options.folder, options.data)
@@ -70,7 +70,7 @@ def run_check(options: argparse.Namespace) -> int:
     check = check_campaign(campaign, doubts)
     found = None
     if options.separable:
-        from discrepancy.separability import separability
+        from discrepancy.experiment.separability import separability
 
         with task("holding every effect against every other"):
             found = separability(campaign)

@@ -72,7 +72,7 @@ def run_from(options: argparse.Namespace) -> int:
     from discrepancy.campaign.findings import copied, samples
     from discrepancy.campaign.guess.propose import propose
     from discrepancy.campaign.guess.write import campaign_text, checked, name_of, write_campaign
-    from discrepancy.plausible import scale_doubts
+    from discrepancy.doubts.plausible import scale_doubts
 
     files = [Path(file) for file in options.files]
     folder = Path(options.output) if options.output else (files[0] if files[0].is_dir() else files[0].parent)

@@ -216,7 +216,7 @@ def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
     """An answer as page and on the screen, or as JSON with ``more``."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
-    from discrepancy.standing_notes import standing_notes
+    from discrepancy.words.standing_notes import standing_notes
 
     write_html(options, answer)
     if options.json:
@@ -236,7 +236,7 @@ def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = G
 def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campaign", target: Path) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_extension
-    from discrepancy.already_there import AlreadyThere
+    from discrepancy.alike.already_there import AlreadyThere
     from discrepancy.extend import DID_NOT_HELP, UnknownEffect, build_units
     from discrepancy.inference.verdict import ONE, SEVERAL
     from discrepancy.model_file import save_model
@@ -300,8 +300,8 @@ def run_ladder(options: argparse.Namespace) -> int:
 def run_next(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from cli.show.comparison import show_next
+    from discrepancy.experiment.next_run import next_run
     from discrepancy.inference.verdict import SET
-    from discrepancy.next_run import next_run
     from discrepancy.verdict import AnswerSoFar
 
     given = inputs(options)

@@ -69,7 +69,7 @@ def show(forecasts: "list[Forecast]", found: "Inspections", limit: "Limit", doub
     from cli.screen import console, dense, styled
     from discrepancy.campaign.amount import readable
     from discrepancy.forecast.forecast import COVERAGE
-    from discrepancy.intervals import digits_of
+    from discrepancy.words.intervals import digits_of
 
     def text(r: "Range", scale: float = 1.0, most: float = math.inf) -> str:
         """``most``: what lies beyond is more than that, in words."""

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     """The command with which one goes on from a diagnosis; empty where there is nothing that a command could add."""
     from discrepancy.compare import another_reducer
+    from discrepancy.doubts.hidden_by_position import POSITION
     from discrepancy.held_names import LOCKED_AT
-    from discrepancy.hidden_by_position import POSITION
     from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
     if answer.verdict == NONE:
@@ -105,7 +105,7 @@ def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: boo
 
 def refit_text(options: argparse.Namespace, file: "ModelFile", names: "Sequence[str]") -> str:
     """How all effects of a model file are fitted anew, together: beside what is in it already nothing of it is fitted."""
-    from discrepancy.already_there import own_settings
+    from discrepancy.alike.already_there import own_settings
 
     reducer = file.reducer.as_named
     base, what = ("base.toml", f"base.toml, a copy of {options.model} without its effects and steps,") if own_settings(file) else (reducer, "the base model")

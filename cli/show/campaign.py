@@ -11,7 +11,7 @@ from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from discrepancy.campaign.check import Check
 from discrepancy.campaign.findings import PROBLEM
 from discrepancy.campaign.pairs import HOLDS_FOR, Verdict
-from discrepancy.separability import Separability
+from discrepancy.experiment.separability import Separability
 
 # How a campaign leaves two effects that look alike.
 SEPARABLE, ALIKE, UNSEEN = "separable", "not separable", "not visible"

@@ -9,30 +9,30 @@ from rich.table import Table
 from cli.columns import fill
 from cli.screen import BETWEEN, WIDTH, console, dense, styled
 from cli.show.would_show import show_would_show
-from discrepancy.as_told import tables_of, told_name
-from discrepancy.calibrated_deviations import unsure_text
 from discrepancy.compare import Comparison, calibrated_texts
+from discrepancy.doubts.calibrated_deviations import unsure_text
+from discrepancy.experiment.next_run import NextRun
 from discrepancy.extend import HELPED, Extension
-from discrepancy.figure_digits import figure_texts, plain_text
-from discrepancy.held_shapes import held_text
+from discrepancy.figures.figure_digits import figure_texts, plain_text
+from discrepancy.figures.key_figures import KeyFigure
+from discrepancy.figures.told_figures import others_text, told_figures
 from discrepancy.inference.chance import chance_number
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
 from discrepancy.inference.verdict import NONE
-from discrepancy.key_figures import KeyFigure
 from discrepancy.ladder_step import step_of
-from discrepancy.left_sizes import left_sizes
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun
-from discrepancy.pin_shapes import shape_text
 from discrepancy.prediction.orders import apart_from_remark
-from discrepancy.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
 from discrepancy.scales import estimate_texts, parameter_texts, shown
-from discrepancy.standing_notes import shortened
-from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
-from discrepancy.waves import waves_of
-from discrepancy.wording import (
+from discrepancy.words.as_told import tables_of, told_name
+from discrepancy.words.held_shapes import held_text
+from discrepancy.words.left_sizes import left_sizes
+from discrepancy.words.pin_shapes import shape_text
+from discrepancy.words.sample_errors import COUNTED, FITTED, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, ratio
+from discrepancy.words.standing_notes import shortened
+from discrepancy.words.waves import waves_of
+from discrepancy.words.wording import (
     NEAREST,
     SHARE,
     base_texts,

@@ -3,7 +3,7 @@
 from typing import Any
 
 from cli.screen import WIDTH, console, dense
-from discrepancy.intervals import digits_of, general
+from discrepancy.words.intervals import digits_of, general
 
 
 def show(found: dict[str, Any]) -> None:

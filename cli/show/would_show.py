@@ -3,7 +3,7 @@
 from rich.console import Console
 
 from cli.screen import dense
-from discrepancy.would_show import HEAD, WouldShow, rows
+from discrepancy.words.would_show import HEAD, WouldShow, rows
 from fmu_src.effect_words import effects_words
 
 # Rows on the screen: the hardest to see.

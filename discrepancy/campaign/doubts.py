@@ -1,4 +1,4 @@
-"""Numbers of a campaign that cannot be, or that no diagnosis needs; what only a model can doubt is in ``discrepancy.plausible``."""
+"""Numbers of a campaign that cannot be, or that no diagnosis needs; what only a model can doubt is in ``discrepancy.doubts.plausible``."""
 
 import math
 from collections import defaultdict

@@ -1,4 +1,4 @@
-"""Loops of which nobody says where the input was locked: asked, at once and without a model; whether it shows ``discrepancy.locked_doubts`` computes."""
+"""Loops of which nobody says where the input was locked: asked, at once and without a model; whether it shows ``discrepancy.doubts.locked_doubts`` computes."""
 
 from collections.abc import Iterable
 

@@ -16,6 +16,7 @@ import numpy as np
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.catalogue.examples import HOUR, cases
 from discrepancy.catalogue.signature import SURFACES, WEAR_HOURS, conditions, record_of
+from discrepancy.experiment.usual_noise import UNMEASURED
 from discrepancy.held_names import HELD
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.bench import Bench
@@ -24,7 +25,6 @@ from discrepancy.prediction.observe import OBSERVED
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from discrepancy.scales import shown
-from discrepancy.usual_noise import UNMEASURED
 from fmu_src.effect import Effect
 from fmu_src.effect_check import Finding
 from reducers.reducer import load_reducer

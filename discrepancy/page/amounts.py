@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.figure_digits import figure_texts
-from discrepancy.intervals import both_texts
-from discrepancy.key_figures import KeyFigure
+from discrepancy.figures.figure_digits import figure_texts
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
+from discrepancy.words.intervals import both_texts
 from fmu_src.arrays import Floats
 from fmu_src.effect_words import effect_title
 from fmu_src.unit_words import unit_on_screen

@@ -2,20 +2,20 @@
 
 from typing import Any
 
-from discrepancy import wording
-from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.chance import chance
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.left_sizes import left_sizes
 from discrepancy.page import comparison, profiles, response, whys, would_show
 from discrepancy.page.amounts import in_words, signal_title
 from discrepancy.page.changed_figures import figures_of_answer
 from discrepancy.page.evidence import base_off, confusable, effects, held_out, listed, recovered, rivals
 from discrepancy.page.runs import runs_of
-from discrepancy.pin_shapes import shape_text
-from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
 from discrepancy.scales import of_axis
 from discrepancy.verdict import Answer
+from discrepancy.words import wording
+from discrepancy.words.as_told import tables_of, told_name
+from discrepancy.words.left_sizes import left_sizes
+from discrepancy.words.pin_shapes import shape_text
+from discrepancy.words.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED, furthest_off
 from fmu_src.effect_words import effect_title
 from pages.content import Card, Page
 from pages.words import capital, number

@@ -5,7 +5,7 @@ from typing import Any
 
 from discrepancy.model_file import SignalEntry
 from discrepancy.page.amounts import signal_title
-from discrepancy.sample_errors import SAMPLES
+from discrepancy.words.sample_errors import SAMPLES
 from pages import look
 from pages.look import Figure, short
 

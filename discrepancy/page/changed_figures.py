@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 
 from discrepancy.extend import Extension
-from discrepancy.key_figures import KeyFigure
+from discrepancy.figures.key_figures import KeyFigure
+from discrepancy.figures.told_figures import others_text, told_figures
 from discrepancy.page import amounts, whys
 from discrepancy.page.comparison import figures_section
-from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
 from pages.content import Section, Table
 from pages.words import number

@@ -3,18 +3,18 @@
 from dataclasses import asdict, replace
 from typing import Any
 
-from discrepancy.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
+from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
+from discrepancy.figures.key_figures import KeyFigure
+from discrepancy.figures.told_figures import others_text, told_figures
 from discrepancy.inference.chance import chance
-from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
-from discrepancy.sample_errors import SAMPLES
 from discrepancy.scales import of_axis
-from discrepancy.told_figures import others_text, told_figures
 from discrepancy.verdict import Answer
-from discrepancy.wording import percent_of_misfit
+from discrepancy.words.sample_errors import SAMPLES
+from discrepancy.words.wording import percent_of_misfit
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure

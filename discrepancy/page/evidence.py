@@ -3,17 +3,17 @@
 from dataclasses import replace
 from typing import Any
 
-from discrepancy.as_told import tables_of, told_name
-from discrepancy.held_shapes import held_text
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import NONE, SET, SEVERAL
 from discrepancy.page import amounts, bars, laws, maps, whys
 from discrepancy.page.amounts import with_minus
-from discrepancy.sample_errors import COUNTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES
 from discrepancy.scales import of_axis, of_parameter, parameter_texts
 from discrepancy.verdict import Answer
-from discrepancy.waves import waves_of
-from discrepancy.wording import (
+from discrepancy.words.as_told import tables_of, told_name
+from discrepancy.words.held_shapes import held_text
+from discrepancy.words.sample_errors import COUNTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES
+from discrepancy.words.waves import waves_of
+from discrepancy.words.wording import (
     NEAREST,
     fitted_together,
     not_judged_text,

@@ -1,14 +1,14 @@
 """The pages of an extension and of a model with its ladder."""
 
 
-from discrepancy.as_told import effect_name, is_direction
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension
 from discrepancy.ladder_step import Step, step_of, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
-from discrepancy.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
-from discrepancy.wording import signals_left
+from discrepancy.words.as_told import effect_name, is_direction
+from discrepancy.words.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
+from discrepancy.words.wording import signals_left
 from fmu_src.effect_words import effect_words
 from pages.content import Card, Page, Section, Table
 from pages.look import Figure

@@ -5,7 +5,7 @@ from typing import Any
 
 from discrepancy.ladder_step import Change, Step
 from discrepancy.page.bars import noise_line
-from discrepancy.sample_errors import OF_PATTERNS, PATTERNS
+from discrepancy.words.sample_errors import OF_PATTERNS, PATTERNS
 from pages import look
 from pages.look import Figure, short
 from pages.words import capital

@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape
 from discrepancy.ladder_step import Change, Step, steps_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page.ladder import KINDS, WIDE, attempts, stairs
-from discrepancy.sample_errors import PATTERNS
+from discrepancy.words.sample_errors import PATTERNS
 from fmu_src.checked_file import write_text
 from pages.look import FONT, GRID, INK, QUIET
 

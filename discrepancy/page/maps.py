@@ -11,7 +11,7 @@ from discrepancy.inference.chance import chance, chance_number
 from discrepancy.page.amounts import signal_title
 from discrepancy.page.runs import slug
 from discrepancy.page.whys import amount, of_place
-from discrepancy.wording import SHARE, percent_of_misfit
+from discrepancy.words.wording import SHARE, percent_of_misfit
 from pages import look
 from pages.content import Table
 from pages.look import Figure, short

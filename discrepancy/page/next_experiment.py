@@ -4,11 +4,11 @@ import math
 import re
 from collections.abc import Sequence
 
-from discrepancy.clauses import clauses
+from discrepancy.experiment.next_run import NextRun
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal
-from discrepancy.next_run import NextRun
 from discrepancy.page import amounts, comparison, maps, whys
 from discrepancy.page.evidence import listed
+from discrepancy.words.clauses import clauses
 from fmu_src.effect_words import effect_title
 from pages import look
 from pages.content import Card, Page, Section, Table

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.as_told import tables_of, told_name
 from discrepancy.inference.refit.profile import Profile, profiles
 from discrepancy.page.amounts import pretty
 from discrepancy.scales import of_estimate, of_parameter
 from discrepancy.verdict import Answer
+from discrepancy.words.as_told import tables_of, told_name
 from fmu_src.arrays import Floats
 from fmu_src.effect_words import effect_title
 from fmu_src.progress import task

@@ -6,16 +6,16 @@ from typing import Any
 
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.extend import BETTER
+from discrepancy.figures.key_figures import CLEARLY, DRAWS, KeyFigure
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance, chance_number
 from discrepancy.inference.law.closed_forms import Form
 from discrepancy.inference.next_experiment import ENOUGH, Proposal
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.verdict import Settings
-from discrepancy.key_figures import CLEARLY, DRAWS, KeyFigure
 from discrepancy.page import amounts
 from discrepancy.verdict import Answer
-from discrepancy.wording import turned_down, with_base_text
+from discrepancy.words.wording import turned_down, with_base_text
 from fmu_src.effect_words import effect_title
 from pages.content import Why
 from pages.words import counted, number

@@ -1,7 +1,7 @@
 """What an answer is worth that names nothing, as a section of its page."""
 
 from discrepancy.page import amounts
-from discrepancy.would_show import HEAD, WouldShow, rows
+from discrepancy.words.would_show import HEAD, WouldShow, rows
 from fmu_src.effect_words import effects_words
 from pages.content import Section, Table
 from pages.words import capital

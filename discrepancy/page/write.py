@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from discrepancy.compare import Comparison
+from discrepancy.experiment.next_run import NextRun
 from discrepancy.extend import Extension
 from discrepancy.model_file import ModelFile
-from discrepancy.next_run import NextRun
 from discrepancy.page import answer, comparison, extension, next_experiment
 from discrepancy.verdict import Answer
 from pages.content import Page

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from named_physics import ARCSEC, LADDER
 
-from discrepancy.intervals import interval_text
 from discrepancy.problem import Record
+from discrepancy.words.intervals import interval_text
 from fmu_src.arrays import Floats
 from pages.charts import Curve, chart
 from pages.content import Card, Page, Section, Table

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.special import stdtrit
 
-from discrepancy.intervals import Writer, estimate_text
+from discrepancy.words.intervals import Writer, estimate_text
 from fmu_src.arrays import Floats
 
 # y of x and the constants; and, for each law, its text, its constants, the function and where fits begin.

@@ -12,7 +12,7 @@ from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
 from discrepancy.inference.law.waves import WAYS, wave_of
 from discrepancy.inference.noise.series import order_axis, spacing_of, stream_of
-from discrepancy.intervals import general
+from discrepancy.words.intervals import general
 from fmu_src.arrays import Floats
 
 BINS = 24

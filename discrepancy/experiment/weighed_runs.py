@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrepancy.as_told import effect_name, is_direction
+from discrepancy.alike.ring_directions import by_symmetry
 from discrepancy.campaign.model import Campaign
-from discrepancy.hidden_by_position import POSITION
+from discrepancy.doubts.hidden_by_position import POSITION
+from discrepancy.experiment.rig_runs import Measurement, at_a_position, at_rated, describe, possible
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.problem import Record, is_unplaced
-from discrepancy.rig_runs import Measurement, at_a_position, at_rated, describe, possible
-from discrepancy.ring_directions import by_symmetry
+from discrepancy.words.as_told import effect_name, is_direction
 from fmu_src.arrays import Floats
 from fmu_src.effect_words import effect_words
 

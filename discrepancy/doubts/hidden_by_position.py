@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.special import ndtri
 
-from discrepancy.as_told import told_name
 from discrepancy.campaign.unplaced import REMEDY
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
@@ -15,6 +14,7 @@ from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
 from discrepancy.problem import BASE, CHAIN, Candidate
 from discrepancy.scales import of_parameter
+from discrepancy.words.as_told import told_name
 from fmu_src.arrays import Floats
 from fmu_src.table import Table
 

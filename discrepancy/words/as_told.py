@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from discrepancy.campaign.model import Campaign
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.verdict import BaseError
-from discrepancy.intervals import relied_on
-from discrepancy.key_figures import KeyFigure
 from discrepancy.model_file import ModelFile, every_effect, parameter_variable
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import is_direction as bounds_of_direction
 from discrepancy.scales import largest, of_axis, of_calibrated, of_estimate, of_parameter, of_signal
+from discrepancy.words.intervals import relied_on
 from fmu_src.table import Table
 from reducers.reducer import Reducer
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign, Rig
 from discrepancy.campaign.quantities import QUANTITIES
+from discrepancy.experiment.usual_noise import UNMEASURED
 from discrepancy.held_names import HELD, LOCKED_AT
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.next_experiment import Experiment
@@ -19,7 +20,6 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import locked
 from discrepancy.problem import Record
 from discrepancy.scales import Scale, of_axis, unit_of_axis
-from discrepancy.usual_noise import UNMEASURED
 from fmu_src.arrays import Floats
 from studies.hysteresis import torque_way
 

@@ -4,11 +4,11 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from discrepancy.as_told import tables_of, told_name
+from discrepancy.alike.opposite_sign import OTHER_WAY
 from discrepancy.counted_from import ZERO, mounting_of
 from discrepancy.model_file import ModelFile
-from discrepancy.opposite_sign import OTHER_WAY
 from discrepancy.prediction.candidates import PIN_NUMBERS
+from discrepancy.words.as_told import tables_of, told_name
 from rv_plant.topology import Topology
 
 # Directions of effects that are fixed to the ring, and numbers of a pin.

@@ -7,11 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy import as_told
+from discrepancy.alike.untold import asked_of_runs, origins_untold, parts_untold, parts_untold_before, repeated
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
-from discrepancy.clauses import clauses
+from discrepancy.doubts.unstated_texts import without_place
+from discrepancy.experiment.rig_runs import (
+    REPEATS,
+    describe,
+    limits,
+)
+from discrepancy.experiment.weighed_runs import apart_text, measured_in, telling_either, weighed
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, rival_of
 from discrepancy.inference.noise.series import stream_of
@@ -21,16 +27,10 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, is_unplaced
 from discrepancy.remembered import diagnosed
-from discrepancy.rig_runs import (
-    REPEATS,
-    describe,
-    limits,
-)
 from discrepancy.scales import shown
-from discrepancy.unstated_texts import without_place
-from discrepancy.untold import asked_of_runs, origins_untold, parts_untold, parts_untold_before, repeated
 from discrepancy.verdict import Answer
-from discrepancy.weighed_runs import apart_text, measured_in, telling_either, weighed
+from discrepancy.words import as_told
+from discrepancy.words.clauses import clauses
 from fmu_src.effect_words import effect_words
 from fmu_src.threads import sharing_no_matrices
 

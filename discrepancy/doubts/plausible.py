@@ -11,7 +11,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
-from discrepancy.known_factors import KnownFactor, known_factor
+from discrepancy.doubts.known_factors import KnownFactor, known_factor
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.prediction.nuisances import require_known

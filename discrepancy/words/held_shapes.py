@@ -1,9 +1,9 @@
 """Numbers of an effect that no fit changes, which is to be said wherever its amplitudes are told."""
 
-from discrepancy.as_told import effect_name
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.scales import of_variable
+from discrepancy.words.as_told import effect_name
 
 
 def held_text(effect: str, model: object) -> str:

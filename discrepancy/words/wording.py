@@ -4,18 +4,18 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from discrepancy.as_told import tables_of, told_name
+from discrepancy.alike.other_places import place_of, shortened
 from discrepancy.campaign.amount import readable
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.extend import BETTER
-from discrepancy.held_signals import held_signals_text
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.intervals import interval_text
-from discrepancy.other_places import place_of, shortened
-from discrepancy.sample_errors import FITTED, OF_SAMPLES, patterns_text, plain, samples_text
 from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
+from discrepancy.words.as_told import tables_of, told_name
+from discrepancy.words.held_signals import held_signals_text
+from discrepancy.words.intervals import interval_text
+from discrepancy.words.sample_errors import FITTED, OF_SAMPLES, patterns_text, plain, samples_text
 
 # A share from here on would be rounded to all of it, and from there on in hundredths of a percent, too.
 NEARLY_ALL, ALL_BUT_ALL = 0.995, 0.9999

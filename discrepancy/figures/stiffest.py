@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from discrepancy.key_figures import CLEARLY, SOFTER, STIFFNESS, KeyFigure
+from discrepancy.figures.key_figures import CLEARLY, SOFTER, STIFFNESS, KeyFigure
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.units import Condition
 

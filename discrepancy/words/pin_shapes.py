@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from discrepancy.alike.untold import origins_untold_of
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.untold import origins_untold_of
 
 # By variant: the shape, and what a ring is that has it.
 SHAPES = {

@@ -6,11 +6,11 @@ The seat of one crank, too far forward by as much as it might be too far back, o
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from discrepancy.alike.other_places import as_shown
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import STOPPED, Diagnosis
-from discrepancy.other_places import as_shown
 from discrepancy.problem import Candidate
 
 SAME = "shows the same in the runs that were fitted"

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from discrepancy.as_told import effect_name
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import Finding, shows_less
 from discrepancy.inference.screening.visible import OR_LESS, Visible
@@ -13,6 +12,7 @@ from discrepancy.inference.verdict import Diagnosis
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE
 from discrepancy.scales import Scale, of_parameter
+from discrepancy.words.as_told import effect_name
 from fmu_src.effect_words import effect_title, effects_words
 
 # Names in one sentence.

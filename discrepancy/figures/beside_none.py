@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from discrepancy.figure_chance import RARE, rarest
+from discrepancy.figures.figure_chance import RARE, rarest
+from discrepancy.figures.key_figures import CLEARLY, KeyFigure, furthest
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
 from discrepancy.inference.misfit.localise import Group
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.key_figures import CLEARLY, KeyFigure, furthest
 from discrepancy.scales import shown
 
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from discrepancy.key_figures import KeyFigure
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.scales import of_signal
 
 # More fit no telephone.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from discrepancy.drag_figures import DRAG, DRAG_UNITS, of_drag
+from discrepancy.figures.drag_figures import DRAG, DRAG_UNITS, of_drag
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.noise.series import position_of, spacing_of, stream_of
 from discrepancy.prediction.support import reversals

@@ -5,8 +5,8 @@ from math import expm1, log1p
 
 from scipy.stats import norm, t
 
+from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.chance import chance
-from discrepancy.key_figures import KeyFigure
 
 # Below this a figure is said to be off (of all figures together).
 RARE = 0.01

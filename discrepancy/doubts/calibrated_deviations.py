@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from discrepancy.doubts.locked_zeros import UNFIT
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.refit.refit import covariance_of
-from discrepancy.locked_zeros import UNFIT
 from discrepancy.scales import ZERO_OF_ANGLES
 
 AT_BOUND = "at a bound of its range, so no measurement"

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from discrepancy.as_told import effect_name, tables_of, told_name
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import largest, of_parameter
+from discrepancy.words.as_told import effect_name, tables_of, told_name
 from fmu_src.faults import InputFault
 
 

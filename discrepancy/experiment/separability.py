@@ -8,13 +8,13 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.planned import with_planned
+from discrepancy.experiment.usual_noise import UNMEASURED
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import candidate_columns
 from discrepancy.inference.separable import APART, STRENGTH, Pair, effect_of, separations
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Record
-from discrepancy.usual_noise import UNMEASURED
 from fmu_src.faults import InputFault
 from fmu_src.threads import sharing_no_matrices
 

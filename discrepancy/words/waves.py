@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from discrepancy.as_told import told_name
-from discrepancy.intervals import relied_on
 from discrepancy.scales import largest, of_parameter
+from discrepancy.words.as_told import told_name
+from discrepancy.words.intervals import relied_on
 from fmu_src.table import Table
 
 COSINE = re.compile(r"(?<![A-Za-z])cos(?![A-Za-z])")

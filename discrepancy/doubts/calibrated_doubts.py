@@ -4,14 +4,14 @@ from collections.abc import Callable, Container, Sequence
 
 import numpy as np
 
-from discrepancy.as_told import told_name
 from discrepancy.campaign.amount import readable
+from discrepancy.figures.key_figures import STIFFNESS, KeyFigure
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.refit.refit import covariance_of
-from discrepancy.key_figures import STIFFNESS, KeyFigure
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.problem import Parameter, Record
 from discrepancy.scales import ZERO_OF_ANGLES, of_calibrated
+from discrepancy.words.as_told import told_name
 from fmu_src.table import Table
 
 # The lag of the output, of the model's own, is doubted outside of these, and surely known to be off where it is clear of the others (assumed:

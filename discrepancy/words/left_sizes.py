@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.inference.verdict import INCOMPLETE
-from discrepancy.sample_errors import PATTERNS
 from discrepancy.verdict import Answer
+from discrepancy.words.sample_errors import PATTERNS
 
 NOT_COUNTED = f"; the verdict counts the {PATTERNS}, not this"
 

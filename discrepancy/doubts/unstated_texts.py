@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 
 from discrepancy.campaign.unplaced import QUESTION, REMEDY, unplaced_in
+from discrepancy.doubts.hidden_by_position import POSITION
 from discrepancy.held_names import LOCKED_AT
-from discrepancy.hidden_by_position import POSITION
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
+from discrepancy.alike.other_places import choices, current, effect_of, group_of, parts, siblings, words
 from discrepancy.model_file import every_effect
-from discrepancy.other_places import choices, current, effect_of, group_of, parts, siblings, words
 from discrepancy.prediction.physical_model import PhysicalModel
 from fmu_src.effect import Effect
 from rv_plant.topology import Topology

@@ -10,7 +10,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.unplaced import QUESTION, REMEDY
-from discrepancy.plausible import thinned
+from discrepancy.doubts.plausible import thinned
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.defined_samples import defined
 from discrepancy.prediction.fineness import fast_noise

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from discrepancy.key_figures import LOST_MOTION, SPAN, STIFFNESS, WIDTH, KeyFigure, furthest
+from discrepancy.figures.key_figures import LOST_MOTION, SPAN, STIFFNESS, WIDTH, KeyFigure, furthest
 
 # So many kinds have a row each; those that a reducer's catalogue has do, however near they are.
 MOST, CATALOGUE = 16, (STIFFNESS, LOST_MOTION, WIDTH, SPAN)

@@ -1,0 +1,1 @@
+"""Key figures: what an engineer asks first (stiffness, lost motion, orders), and what chance makes of them."""

@@ -1,0 +1,1 @@
+"""How results are told: names, units, intervals, shapes, sentences."""
