@@ -28,8 +28,9 @@ NINETY_FIVE = 1.645
 LEFT = 1e-6
 # Share of their usual size below which it is not asked from where on amplitudes that are no straight line are seen.
 OR_LESS = 0.1
-# Whole predictions for one amplitude, at most; and how near t then is to what was asked for.
-ROUNDS, NEAR = 6, 0.15
+# Whole predictions for one amplitude, at most; and by how much t may then be more than what was asked for.
+ROUNDS, NEAR = 6, 0.3
+AIM = 1.0 + 0.5 * NEAR
 
 
 @dataclass(frozen=True)
@@ -160,7 +161,7 @@ def predicted(space: Workspace, own: _Own, place: _Place) -> float:
         values = {**at, p.name: p.off + place.side * size * p.scale}
         changes = space.predictions.changes(values, at, which, first_order=False)
         t = own.taken_up(space.whiten(dict(zip(which, changes)))) / own.target
-        if abs(t - 1.0) < NEAR or (t > 1.0 and size <= OR_LESS):
+        if 1.0 <= t < 1.0 + NEAR or (t > 1.0 and size <= OR_LESS):
             return size
         if t < 1.0 and size >= place.reach:
             return math.inf
@@ -173,9 +174,9 @@ def predicted(space: Workspace, own: _Own, place: _Place) -> float:
 
 
 def between(below: tuple[float, float], above: tuple[float, float]) -> float:
-    """Where t would be what it takes: on the straight line between both, but a fifth of the way from either (behind a gap it is no line); up to four
+    """Where t would be a little more than it takes: on the straight line between both, but a fifth of the way from either (behind a gap it is no line); up to four
     times as large where nothing was seen yet."""
     if math.isinf(above[0]):
-        return below[0] * min(max(1.0 / max(below[1], 1e-300), 1.2), 4.0)
-    share = (1.0 - below[1]) / (above[1] - below[1])
+        return below[0] * min(max(AIM / max(below[1], 1e-300), 1.2), 4.0)
+    share = (AIM - below[1]) / (above[1] - below[1])
     return below[0] + (above[0] - below[0]) * min(max(share, 0.2), 0.8)
