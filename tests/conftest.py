@@ -26,9 +26,9 @@ settings.load_profile(os.environ.get("RVWEAR_PROPERTIES", "default"))
 
 # The workers take files in this order: the longest come early, so that no worker is left with one at the end.
 FIRST = (
-    "test_blind_trial", "test_habits", "test_fmu", "test_inference_diagnose", "test_source_fmu", "test_draft", "test_life", "test_wheel", "test_strangers",
+    "test_blind_trial", "test_reproduce", "test_workbench_browser_in", "test_habits", "test_fmu", "test_inference_diagnose", "test_source_fmu", "test_draft", "test_life", "test_wheel", "test_strangers",
     "test_isolation", "test_loop", "test_fmu_bench", "test_effects_check", "test_real_data", "test_references", "test_motion", "test_fuzz_readers",
-    "test_reproduce", "test_checked_file", "test_reducer_unit", "test_verification", "test_plain_python", "test_consoles", "test_ensemble", "test_interrupted",
+    "test_checked_file", "test_reducer_unit", "test_verification", "test_plain_python", "test_consoles", "test_ensemble", "test_interrupted",
 )  # fmt: skip
 
 

@@ -6,27 +6,20 @@ import math
 import re
 import shlex
 
-import numpy as np
 import pytest
 
 from cli.commands.new_reducer import ratio_in
 from cli.main import main
 from fmu_src.faults import InputFault
-from pages.render import rendered_sections
 from reducers.checking import check
-from reducers.completion.again import given_again
 from reducers.completion.command import words_of
 from reducers.completion.complete import NOT_ALONE, UNITS, complete
 from reducers.completion.doubts import rounded_ratio, sun_doubt
 from reducers.completion.file import reducer_at
-from reducers.completion.given import SUN, Given, given_with, of_ratio, usual_pins
+from reducers.completion.given import SUN, Given, of_ratio, usual_pins
 from reducers.completion.known import known_numbers
 from reducers.reducer import load_reducer
 from rv_plant.parts import largest_pin
-from studies.catalogue_stiffness import as_stiff_as
-from studies.completed_ranges import Influence, influences, what_matters
-from studies.hysteresis import hysteresis
-from studies.report.assembly import contact_points, outline, pin_forces, pin_places
 from studies.report.completed import page_of
 from workbench.reducers import findings, given_of, rows_of
 
@@ -61,105 +54,6 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert main(["reducer", "check", path]) == 0
     assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
-
-
-def test_what_the_catalogue_asked_for_is_counted_as_found_and_given_by_nobody(tmp_path, capsys):
-    """Seven things given were six in words and five in numbers, the supports that nobody gave among these."""
-    path = tmp_path / "mine.toml"
-    options = ["--ratio", "105", "--rated", "412", "--cranks", "2", "--speed", "15", "--diameter", "190", "--stiffness", "108", "--lost-motion", "1"]
-    assert main(["reducer", "new", *options, "--output", str(path)]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    given = "ratio 105, rated torque 412 N m, diameter 190 mm, 2 cranks, 15 rpm of the output, 16 rollers a bearing (as usual), lost motion 1 arcmin"
-    assert f"given: {given}, torsional stiffness 108 N m/arcmin; of the file's 53 numbers 4 follow from that alone" in said
-    assert "2 were looked for to meet the catalogue (disc.equidistant_modification, crank.support_compliance), " in said
-    assert main(["reducer", "check", str(path)]) == 0
-    told = capsys.readouterr().out
-    assert "53 numbers stated (4 given, 2 looked for to meet the catalogue, " in told
-    # Files of a former version say that the supports were given.
-    path.write_text(path.read_text().replace('"found: makes', '"given: makes'))
-    assert main(["reducer", "check", str(path)]) == 0 and capsys.readouterr().out == told
-
-
-def test_numbers_given_have_the_units_they_are_read_in_and_of_a_given_stiffness_nothing_is_left_open(tmp_path, capsys):
-    """The line said "disc.equidistant_modification 3.253, crank.support_compliance 8.889e-09"; the form alone had the note, and whatever was given."""
-    catalogue, note = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--output", str(tmp_path / "mine.toml"), "--overwrite"], "scatters by a third"
-    assert main([*catalogue, "--stiffness", "392", "--known", "disc.equidistant_modification=3.253um"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "torsional stiffness 392 N m/arcmin, disc.equidistant_modification 3.253 um; of the file's" in said and note not in said
-    assert main([*catalogue, "--known", "carrier.compliance=2e-7rad/(N.m)", "--known", "mesh.friction=0.05"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "carrier.compliance 0.000687549 arcmin/(N m), mesh.friction 0.05; of" in said and note in said
-
-
-def test_a_lost_motion_that_no_gap_makes_is_made_by_smaller_clearances_within_their_ranges(tmp_path, capsys):
-    """The rule's gap was kept: 1.28 arcmin for the 0.8 of a catalogue, where 0.877 can be had without a gap and 0.8 with bearings that fit closer."""
-    path = str(tmp_path / "mine.toml")
-    catalogue = ["reducer", "new", "--ratio", "1:81", "--rated", "167Nm", "--cranks", "3", "--stiffness", "60Nm/arcmin", "--diameter", "145mm",
-                 "--output", path, "--overwrite"]  # fmt: skip
-    assert main([*catalogue, "--lost-motion", "0.8arcmin"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert re.search(r"bearing\.clearance = 2\.\d+ um \(assumed, range 1\.5 to 5 um\); --known NAME=VALUE where one was measured", said)
-    made = load_reducer(path)
-    assert hysteresis(made, []).lost_motion_arcmin == pytest.approx(0.8, rel=0.01)
-    assert made.starts["equidistant_modification"] == 0.0 and made.ranges["bearing_clearance"] == pytest.approx((1.5e-6, 5e-6))
-    assert made.sources["bearing_clearance"].startswith("completed: makes the lost motion that of the catalogue, 0.8 arcmin; assumed")
-    assert made.sources["equidistant_modification"].startswith("completed: the least of its range, for the lost motion of the catalogue, 0.8 arcmin; flank")
-    # As near as it goes, and what would meet it.
-    assert main([*catalogue, "--lost-motion", "0.3arcmin"]) == 0
-    out = capsys.readouterr().out
-    assert "first_stage.backlash = 10 um (assumed, range 10 to 80 um), the least of their ranges" in " ".join(out.split())
-    assert hysteresis(load_reducer(path), []).lost_motion_arcmin == pytest.approx(0.609, rel=0.01)
-    [line] = [line for line in out.splitlines() if line.startswith("  rvwear reducer new")]
-    assert main([*shlex.split(line)[1:], "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["tested"]["lost_motion"] == pytest.approx(0.3, rel=0.01) and [one["met"] for one in found["catalogue"]] == [True, True]
-    assert main([*catalogue, "--lost-motion", "0.1arcmin"]) == 0
-    assert "no smaller clearance would make it: look at --lost-motion" in " ".join(capsys.readouterr().out.split())
-    assert main([*catalogue, "--lost-motion", "0.3arcmin", "--meet-lost-motion"]) == 2
-    assert "nothing within the ranges makes a lost motion of 0.3 arcmin, the least is 0.6" in capsys.readouterr().err
-
-
-def test_a_gap_that_makes_the_lost_motion_is_completed_with_its_range_and_nobody_s_measure(tmp_path, capsys):
-    """It stood in the file as "given: measured", without a range; a lost motion that was given was not met, where a stiffness that was given is."""
-    path = tmp_path / "mine.toml"
-    usual = ["reducer", "new", "--ratio", "129", "--rated", "1568", "--cranks", "3", "--output", str(path), "--overwrite"]
-    assert main(usual) == 0
-    # Nobody said what the catalogue has.
-    assert "arcmin; --stiffness and --lost-motion of the catalogue would make it that" in " ".join(capsys.readouterr().out.split())
-    catalogue = [*usual, "--lost-motion", "0.8"]
-    assert main(catalogue) == 0
-    assert "(the catalogue's: 0.8)" in " ".join(capsys.readouterr().out.split())
-    made = load_reducer(path)
-    low, high = made.ranges["equidistant_modification"]
-    assert low == 0.0 and low < made.starts["equidistant_modification"] < high
-    assert made.sources["equidistant_modification"].startswith("completed: makes the lost motion that of the catalogue, 0.8 arcmin; flank gap by")
-    found = check(made)
-    assert not found.outdated and hysteresis(made, []).lost_motion_arcmin == pytest.approx(0.8, rel=5e-3)
-    given = given_again(made)
-    assert given.lost_motion == 0.8 and {name: 1e-6 * size for name, size in given.made.items()} == {
-        "disc.equidistant_modification": pytest.approx(made.starts["equidistant_modification"])
-    }
-    assert "disc.equidistant_modification" not in given.known and "--lost-motion" in words_of(given)
-    assert main([*catalogue, "--meet-lost-motion", "--known", "disc.equidistant_modification=3um"]) == 2
-    assert "each says the gap of the flanks; keep one" in capsys.readouterr().err
-
-
-def test_the_command_that_completes_a_file_again_keeps_what_its_catalogue_says(tmp_path, capsys):
-    """It kept the supports that had made the stiffness: with two measured numbers 69.4 N.m/arcmin came of 60."""
-    path = tmp_path / "mine.toml"
-    asked = ["--ratio", "1:81", "--rated", "167Nm", "--cranks", "3", "--stiffness", "60Nm/arcmin", "--lost-motion", "0.8", "--diameter", "145mm"]
-    assert main(["reducer", "new", *asked, "--output", str(path), "--name", "mine"]) == 0
-    [again] = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#   rvwear reducer new")]
-    assert "--stiffness 60 " in again and "--lost-motion 0.8 " in again and "support_compliance" not in again
-    words = shlex.split(again.removeprefix("#   rvwear "))[:-2]
-    anew = tmp_path / "anew.toml"
-    assert main([*words, "--known", "mesh.width=9mm", "--known", "crank.eccentricity=0.95mm", "--output", str(anew)]) == 0
-    assert hysteresis(load_reducer(anew), []).stiffness_Nm_per_arcmin == pytest.approx(60.0, rel=2e-3)
-    # So it is in the command that the check of a changed file prints, where a gap that is given tells no lost motion, too.
-    assert main(["reducer", "new", *asked, "--known", "disc.equidistant_modification=1um", "--output", str(path), "--overwrite"]) == 0
-    path.write_text(path.read_text(encoding="utf-8").replace("rollers = 16", "rollers = 14"), encoding="utf-8")
-    told = check(load_reducer(path)).completing
-    assert "--stiffness 60 " in told and "--lost-motion 0.8 " in told and "support_compliance" not in told
 
 
 @pytest.mark.parametrize("text", ["121", "1:121", "121:1", "1 : 121", "1/121"])
@@ -314,110 +208,11 @@ def test_the_librarys_reducers_from_catalogue_numbers_alone(tmp_path, capsys, re
     assert f"of {tested} numbers that {reducer} has from its source" in " ".join(capsys.readouterr().out.split())
 
 
-@pytest.fixture(scope="module")
-def rig():
-    return complete(Given(81, 40, 1600.0))
-
-
-def test_the_drawing_is_to_scale_and_every_pin_touches_both_discs(rig):
-    reducer = reducer_at(rig, {})
-    radius = 1e3 * reducer.starts["pin_radius"]
-    for d in range(2):
-        drawn, pins = outline(reducer, d), pin_places(reducer)
-        nearest = np.abs(pins[:, None] - drawn[None, :]).min(axis=1)
-        # An unmodified disc touches all pins; the drawn points lie some tenths of a millimetre apart.
-        assert nearest == pytest.approx(radius, abs=0.02)
-        points, normals = contact_points(reducer, d)
-        assert np.abs(points - pins) == pytest.approx(radius) and np.abs(normals) == pytest.approx(1.0)
-        assert np.abs(points[:, None] - drawn[None, :]).min(axis=1).max() < 0.51 * np.abs(np.diff(drawn)).max()
-    # Together the forces carry the torque about the ring's centre.
-    force = pin_forces(reducer)
-    moments = [float(np.sum(force[d] * np.imag(np.conj(contact_points(reducer, d)[0]) * contact_points(reducer, d)[1]))) for d in range(2)]
-    assert abs(sum(moments)) * 1e-3 == pytest.approx(1600.0, rel=0.03)
-
-
-def test_page_shows_parts_numbers_and_influences(rig):
-    found = [Influence("K1", "lost_motion_arcmin", 0.5, 1.0, 1.3), Influence("gap", "lost_motion_arcmin", 1.0, 1.0, 1.001)]
-    page = page_of(rig, reducer_at(rig, {}), found)
-    html = rendered_sections(page)
-    assert "completed reducer" in html and "eccentricity times pins" in html
-    (table,) = page.sections[1].tables
-    assert [row[0] for row in table.rows] == ["lost motion"] and table.rows[0][-1] == "40"
-    assert len(page_of(rig, reducer_at(rig, {}), []).sections) == 2
-
-
 def test_a_name_of_two_lines_is_refused_like_any_that_no_reducer_has(tmp_path, capsys):
     for name in ("a\nb", "x/y"):
         assert main([*RIG, "--output", str(tmp_path / "rig.toml"), "--name", name]) == 2
         assert f"reducer.name = {name!r}: String should match pattern" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
-
-
-def test_ranges_move_the_signals_that_they_must():
-    found = {(one.dial, one.signal): one for one in influences(complete(Given(121, 40, 167.0)), ("gap", "wear.mesh_coefficient"))}
-    lost, stiffness = "lost_motion_arcmin", "torsional_stiffness_Nm_per_arcmin"
-    gap = found["gap", lost]
-    # From no gap to half an arcmin on either flank.
-    assert gap.high - gap.low == pytest.approx(1.0, abs=0.1)
-    wear = found["wear.mesh_coefficient", "disc_flank_um"]
-    # A flank wears with its coefficient, and less the more it has spread the load by then.
-    assert 2.0 < wear.high / wear.middle < 5.0 and 2.0 < wear.middle / wear.low <= 5.0
-    assert found["wear.mesh_coefficient", stiffness].share == 0.0 and found["wear.mesh_coefficient", lost].share == 0.0
-    # Losses and frequencies are signals of a bench, too: neither hangs on what wears, both are there.
-    for signal in ("efficiency_percent", "no_load_torque_Nm", "natural_frequency_1_Hz", "natural_frequency_2_Hz"):
-        assert found["gap", signal].middle > 0.0 and found["wear.mesh_coefficient", signal].share == 0.0
-    strongest = what_matters(list(found.values()))
-    assert strongest[lost][0].dial == "gap" and strongest["disc_flank_um"][0].dial == "wear.mesh_coefficient"
-
-
-def test_seals_move_the_torque_without_load_and_masses_the_frequencies():
-    found = {(one.dial, one.signal): one for one in influences(complete(Given(121, 40, 167.0)), ("seal_share", "carrier_bulk"))}
-    seals, mass = found["seal_share", "no_load_torque_Nm"], found["carrier_bulk", "natural_frequency_1_Hz"]
-    assert seals.low < seals.middle < seals.high and mass.high < mass.low
-    assert found["seal_share", "efficiency_percent"].high < found["seal_share", "efficiency_percent"].low
-    assert found["carrier_bulk", "efficiency_percent"].share < 1e-6
-
-
-def test_the_command_draws_and_tells_what_matters(tmp_path, capsys, monkeypatch):
-    one = Influence("K1", "lost_motion_arcmin", 0.5, 1.0, 1.3)
-    monkeypatch.setattr("studies.completed_ranges.influences", lambda completion, advance: advance() or [one])
-    page, words = tmp_path / "rig.html", [*RIG, "--output", str(tmp_path / "rig.toml"), "--overwrite", "--sensitivity"]
-    assert main([*words, "--html", str(page), "--json"]) == 0
-    (told,) = json.loads(capsys.readouterr().out)["sensitivity"]
-    assert told["dial"] == "K1" and told["share"] == pytest.approx(0.4)
-    assert "The parts to scale" in page.read_text(encoding="utf-8")
-    assert main(words) == 0
-    assert "eccentricity times pins over pin circle" in capsys.readouterr().out
-    assert main([*RIG, "--output", str(tmp_path / "other.toml"), "--html", str(tmp_path / "rig.pdf")]) == 2
-    assert "must end in .html" in capsys.readouterr().err and not (tmp_path / "other.toml").exists()
-
-
-def test_a_number_that_moves_only_with_others_says_what_moves_it(tmp_path, capsys):
-    """In the file, and where somebody changed it alone; the command that is named does it, and what was given before stays."""
-    path = tmp_path / "my81.toml"
-    assert main(["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--cranks", "3", "--known", "pin.radius=4mm",
-                 "--name", "my81", "--output", str(path), "-q"]) == 0  # fmt: skip
-    text = path.read_text(encoding="utf-8")
-    assert "# may be 10, 11, 12, 13, 14, 15, 16, 17, 18, 19 or 20, but not alone, for teeth are whole: complete again with --known first_stage.sun_teeth=11" in text
-    assert "not alone, for races and rollers fit each other: complete again with --known roller.radius=...mm" in text
-    path.write_text(text.replace("sun_teeth = { value = 10.0", "sun_teeth = { value = 12.0"), encoding="utf-8")
-    assert main(["reducer", "check", str(path)]) == 2
-    said = capsys.readouterr().err
-    assert "[first_stage] sun_teeth = 12: the file's range is another single value" in said and "12 1" not in said
-    words = shlex.split(re.search("complete again: (rvwear .*?); or leave", said)[1])
-    assert words[1:11] == ["reducer", "new", "--ratio", "81", "--pins", "40", "--rated", "412", "--speed", "15"]
-    assert "first_stage.sun_teeth=12" in words and "pin.radius=4mm" in words
-    assert main([*words[1:], "--output", str(tmp_path / "anew.toml"), "-q"]) == 0
-    assert load_reducer(tmp_path / "anew.toml").starts["sun_teeth"] == 12.0
-
-
-def test_a_range_of_a_number_without_unit_is_told_without_one(tmp_path):
-    path = tmp_path / "a.toml"
-    assert main([*RIG, "--output", str(path), "-q"]) == 0
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace("poisson_ratio = { value = 0.3,", "poisson_ratio = { value = 0.4,"), encoding="utf-8")
-    with pytest.raises(InputFault, match=r"value = 0\.4 lies outside; give \[lowest, highest\]$"):
-        load_reducer(path)
 
 
 def test_what_was_completed_from_other_teeth_is_outdated_when_somebody_changes_them(tmp_path, capsys):
@@ -479,45 +274,6 @@ def test_a_sun_with_few_teeth_is_doubted_with_the_reason():
     assert "undercut without profile shift (2 / sin^2 20 deg = 17.1, standard basic rack of ISO 53); so few need 0.53 modules" in said
     # Ten teeth are made with a shift of 0.42.
     assert not sun_doubt(9) and not sun_doubt(17)
-
-
-def test_a_doubtful_stiffness_asks_for_the_diameter_where_none_is_given():
-    task = {"ratio": 153, "pins": None, "rated": 784.0, "cranks": 3}
-    assert "give --diameter if the catalogue has it, or look at the unit" in as_stiff_as(given_with(**task), 212.0).doubts[-1]
-    assert not any("torsional stiffness" in text for text in as_stiff_as(given_with(**task, diameter=239.0), 212.0).doubts)
-
-
-def test_a_reducer_is_made_as_stiff_as_its_catalogue_says(tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    words = ["reducer", "new", "--ratio", "121", "--pins", "40", "--rated", "167", "--diameter", "145", "--name", "m"]
-    assert main([*words, "--stiffness", "50Nm/arcmin"]) == 0
-    assert "um/kN makes the torsional stiffness that of the catalogue, 50 N m/arcmin" in " ".join(capsys.readouterr().out.split())
-    made = load_reducer("m.toml")
-    assert made.sources["crank_seat_compliance"] == "found: makes the torsional stiffness that of the catalogue, 50 N.m/arcmin"
-    assert hysteresis(made, []).stiffness_Nm_per_arcmin == pytest.approx(50.0, rel=2e-3)
-    # What is far from the rules is doubtful, what nothing makes is refused.
-    assert main([*words, "--stiffness", "1700Nm/deg", "--overwrite"]) == 0
-    assert "asks for crank.support_compliance" in " ".join(capsys.readouterr().out.split())
-    for more, said in (
-        (["--stiffness", "2000"], "with rigid crank supports the other numbers make it 274"), (["--stiffness", "0"], "must be 0.1 or more"),
-        (["--stiffness", "50", "--known", "crank.support_compliance=1e-9m/N"], "keep one"),
-    ):  # fmt: skip
-        assert main([*words, *more, "--output", "no.toml"]) == 2
-        assert said in " ".join(capsys.readouterr().err.split())
-    assert not (tmp_path / "no.toml").exists()
-
-
-@pytest.mark.parametrize(("typed", "said"), [
-    ("210Nm/deg", "--stiffness 210Nm/deg is 3.5 N m/arcmin: it asks for crank.support_compliance = 5"), ("210Nm/deg", "; did you mean 210 N m/arcmin?"),
-    ("210Nm/deg", "more than 5 times beyond what rules give, 2.57 um/kN to 9.31 um/kN, which make 174 to 493 N m/arcmin"),
-    ("3.5", "--stiffness 3.5 N m/arcmin: it asks for "), ("3.5", "N m/arcmin; give --diameter if the catalogue has it, or look at its unit"),
-    ("12600", "which is softer; did you mean 12600 N m/deg?"),
-])  # fmt: skip
-def test_a_stiffness_far_beyond_the_rules_is_refused_with_the_unit_that_was_meant(tmp_path, capsys, typed, said):
-    """A file of supports sixty times as soft as any was written, with one doubt among its lines."""
-    file = tmp_path / "a.toml"
-    assert main(["reducer", "new", "--ratio", "153", "--rated", "784", "--stiffness", typed, "--output", str(file)]) == 2
-    assert said in " ".join(capsys.readouterr().err.split()) and not file.exists()
 
 
 def test_compliances_stand_on_screens_in_the_units_that_people_read(tmp_path, capsys):
