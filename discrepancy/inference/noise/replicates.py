@@ -37,6 +37,14 @@ def _groups(records: Sequence[Record], indices: Sequence[int]) -> list[list[int]
     return []
 
 
+def beside(position: Floats, other: Floats, spacing: float) -> bool:
+    """Whether two runs have sample beside sample: as many, none far from the other's, and no jump where one of them lacks a sample that the other has."""
+    if position.size != other.size:
+        return False
+    apart = position - other
+    return bool(np.all(np.abs(apart) <= 1.5 * spacing + 1e-12) and np.all(np.abs(np.diff(apart)) <= 0.5 * spacing + 1e-12))
+
+
 def deviations_of(records: Sequence[Record], residuals: Sequence[Floats], masks: Sequence[Mask], indices: Sequence[int]) -> list[Deviation]:
     """Deviations of repeated runs from each other, scaled to the variance of one run."""
     result = []
@@ -44,7 +52,7 @@ def deviations_of(records: Sequence[Record], residuals: Sequence[Floats], masks:
         positions = [position_of(records[i]) for i in group]
         spacing = spacing_of(positions[0])
         # sample by sample even if the samples wander a little: pairing with neighbours twice would feign slow noise
-        matched = all(p.size == positions[0].size and np.allclose(p, positions[0], rtol=0, atol=1.5 * spacing + 1e-12) for p in positions)
+        matched = all(beside(p, positions[0], spacing) for p in positions)
         condition = records[group[0]].condition
         if matched:
             rows = np.flatnonzero(np.all([masks[i] for i in group], axis=0))
