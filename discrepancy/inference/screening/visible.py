@@ -28,6 +28,8 @@ NINETY_FIVE = 1.645
 LEFT = 1e-6
 # Share of their usual size below which it is not asked from where on amplitudes that are no straight line are seen.
 OR_LESS = 0.1
+# Up to so many usual sizes what is straight at the usual one is taken to be so.
+KNOWN_STRAIGHT = 3.0
 # Whole predictions for one amplitude, at most; and by how much t may then be more than what was asked for.
 ROUNDS, NEAR = 6, 0.3
 AIM = 1.0 + 0.5 * NEAR
@@ -123,7 +125,7 @@ def seen_from(space: Workspace, own: _Own, j: int) -> Visible:
 
     def within(place: _Place) -> float:
         size = own.target / place.slope
-        found = size if own.straight else predicted(space, own, place)
+        found = size if own.straight and size <= KNOWN_STRAIGHT else predicted(space, own, place)
         return found if found <= place.reach else math.inf
 
     worst = within(where[-1]) if where else math.inf
