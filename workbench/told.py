@@ -37,7 +37,8 @@ def figure_data(figure: Figure) -> dict[str, Any]:
 
 
 def table_data(table: Table) -> dict[str, Any]:
-    return {"title": table.title, "head": table.head, "rows": in_print(table.rows), "right": list(table.right), "note": table.note,
+    rows = in_print([[on_page(cell) for cell in row] for row in table.rows])
+    return {"title": table.title, "head": table.head, "rows": rows, "right": list(table.right), "note": table.note,
             "whys": [asdict(w) for w in table.whys], "folded": table.folded}
 
 

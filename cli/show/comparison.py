@@ -292,7 +292,8 @@ def show_asked(run: NextRun, out: Console) -> None:
     if run.asked and run.answer.would_show:
         out.print("what these runs cannot show, whatever it is, and what would")
     for a in run.asked:
-        out.print(f"  {a.text}")
+        # Of a design it is said what it does not show, then what would.
+        out.print(f"  {a.why}: {a.experiment}" if run.answer.would_show else f"  {a.text}")
         cost = "" if a.cost is None else f"cost {a.cost:g} {run.cost_unit}".rstrip()
         expected = "" if a.expected is None else f"expected misfit {a.expected:.3g} in chi-square, of two runs that are off as those so far"
         if more := "; ".join(filter(None, (a.like, cost, expected))):

@@ -165,7 +165,7 @@ def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, d
         else "No place, order or dependence carries a significant misfit."
     )
     figures, tables = maps.localisation("place", places, level)
-    cells = {(signal, c): float(v) ** 0.5 for signal, row in by_condition.items() for c, v in row.items()}
+    cells = {(signal, c): float(v) for signal, row in by_condition.items() for c, v in row.items()}
     if len({condition for _, condition in cells}) > 1:
         figures.insert(
             0,

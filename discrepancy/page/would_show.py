@@ -6,17 +6,23 @@ from fmu_src.effect_words import effects_words
 from pages.content import Section, Table
 from pages.words import capital
 
+# Times their usual size up to which effects are seen so easily that they stand folded.
+EASIER = 0.5
+
 
 def section(found: WouldShow) -> Section:
     """From which size on effects would have been seen, and what the runs cannot show whatever it is."""
-    lead = f"{capital(amounts.in_words(found.sentence))}. A size is the one that is seen in 95 of 100 campaigns like this one."
+    lead = "From which size on each effect is seen in 95 of 100 campaigns like this one, beside the size that it usually has."
     if found.easy:
         lead += f" Seen at a tenth of its usual size: {effects_words(found.easy)}."
     if found.silent:
         lead += f" Changing nothing here, whatever their size: {effects_words(found.silent)}."
     tables = []
-    if found.hard:
-        tables.append(Table("Hardest to see", list(HEAD), rows(found.hard), (2, 3)))
+    hard, easier = rows([v for v in found.hard if not v.times <= EASIER]), rows([v for v in found.hard if v.times <= EASIER])
+    if hard:
+        tables.append(Table("Hardest to see", list(HEAD), hard, (2, 3)))
+    if easier:
+        tables.append(Table("", list(HEAD), easier, (2, 3), folded=f"{len(easier)} more, seen from a tenth to a half of their usual size"))
     if found.lacking:
         lacking = [[capital(amounts.in_words(plain(f.text))), capital(amounts.in_words(f.remedy))] for f in found.lacking]
         tables.append(Table("What these runs cannot show, whatever it is", ["cannot show", "what would"], lacking))

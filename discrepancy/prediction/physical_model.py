@@ -51,6 +51,8 @@ MOST_SHOWN = 200
 # Orders are those of the curve.
 PREDICTED = {*OBSERVED, ORDERS}
 
+PLACES_ENCODER = "lag of the output under load, in times that of the base model: it places the angle of an encoder on the output, and tells no stiffness"
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -152,7 +154,7 @@ class PhysicalModel(PlacedBeside):
             for name, zero in self.zeros.items()
         ]  # fmt: skip
         if any(r.of_output for r in self.records):
-            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, "lag of the output under load, in times that of the base model"))
+            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, PLACES_ENCODER))
         return found
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:

@@ -10,6 +10,19 @@ const progressOf = (kind) => h("ul", { class: "quiet small", id: `doing-${kind}`
 
 const NOTHING = "Nothing is to be added: the model is adequate";
 
+// What is asked for; of what a design cannot show nobody knows a price or what would be off.
+function questions(next, price, context) {
+  const priced = next.asked.some((a) => a.like || a.cost !== null || a.expected !== null);
+  const head = ["☐", "measure", "because", ...(priced ? ["condition", price, "expected misfit"] : [])];
+  const rows = next.asked.map((a) => [
+    "☐",
+    a.experiment,
+    h("span", {}, asked(a.why, next.cells, context)),
+    ...(priced ? [a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)] : []),
+  ]);
+  return table(head, rows, priced ? [4, 5] : [], { class: "rows" });
+}
+
 export function nextPart(bag) {
   const { answer, next, context } = bag;
   const busy = context.busy();
@@ -33,12 +46,7 @@ export function nextPart(bag) {
           ? h(
               "div",
               { id: "asked" },
-              table(
-                ["☐", "measure", "because", "condition", price, "expected misfit"],
-                next.asked.map((a) => ["☐", a.experiment, h("span", {}, asked(a.why, next.cells, context)), a.like, a.cost === null ? "–" : String(Number(a.cost.toPrecision(4))), number(a.expected, 3)]),
-                [4, 5],
-                { class: "rows" },
-              ),
+              questions(next, price, context),
             )
           : null,
         Object.keys(next.stakes).length
@@ -64,7 +72,7 @@ export function nextPart(bag) {
     : null;
   const ask = [
     sheet,
-    h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : "Propose the next experiment"),
+    h("button", { type: "button", id: "next", disabled: !!busy, title: busy || undefined, onclick: () => context.start("next", { model: answer.model }) }, next ? "Ask again" : answer.would_show ? "Make the sheet" : "Propose the next experiment"),
   ];
   // Of an adequate model nothing need be asked; what was asked all the same is seen.
   if (answer.verdict === "none")
@@ -74,7 +82,7 @@ export function nextPart(bag) {
       h("h2", {}, answer.untold?.length ? `What can still be asked: ${answer.untold.length > 1 ? `${answer.untold.length} questions` : "one question"}` : "Nothing is left to explain: no further experiment is asked for"),
       ...(answer.untold ?? []).map((text) => h("p", {}, text)),
       h("p", { class: "quiet" }, "How large an effect must have been to be seen, what these runs cannot show, and what would, stands in the evidence above."),
-      h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, "Propose an experiment anyway"), ask), progressOf("next")),
+      h("div", { class: "panel" }, h("details", { id: "next-anyway", open: !!next }, h("summary", {}, answer.would_show ? "What these runs cannot show, as a sheet for the rig" : "Propose an experiment anyway"), ask), progressOf("next")),
     );
   return h("section", {}, h("h2", {}, "What to measure next"), h("div", { class: "panel" }, ask, progressOf("next")));
 }
@@ -200,13 +208,14 @@ export function ladder(bag) {
           s.effects.map(effectName).join(" + "),
           bar(s.training_before, "quiet"),
           bar(s.training_after, "quiet"),
-          bar(s.held_out_before, "quiet"),
-          bar(s.held_out_after, tone(s.held_out_before, s.held_out_after)),
+          // Runs that an effect hardly changes judge nothing: no number there looks like a success.
+          ...(s.unseen ? ["–", "–"] : [bar(s.held_out_before, "quiet"), bar(s.held_out_after, tone(s.held_out_before, s.held_out_after))]),
           `${s.verdict}${s.kept === false ? ", not kept" : ""}`,
         ]),
       ),
       extension.left ? h("p", { class: "fair" }, extension.left) : null,
-      h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by."),
+      h("p", { class: "quiet small" }, "In units of the noise, in the patterns that carry the misfit; 1 is what repetitions differ by on average, single patterns differ by more. Of fitted runs any effect lowers it."),
+      steps.some((s) => s.unseen) ? h("p", { class: "quiet small" }, "–: unused runs are hardly changed by it, and judge nothing; with one condition left out at a time it is judged, as said above.") : null,
       // Where nothing was ever added there is no better model.
       inModel
         ? h(

@@ -145,7 +145,7 @@ export function show(root, context) {
           { class: `panel verdict ${answer.tone}`, id: "verdict" },
           h("p", { class: "quiet small" }, `verdict on ${answer.model}: ${answer.verdict} · ${took(answer)}`),
           h("h1", {}, answer.headline),
-          answer.headline.includes(answer.reason.slice(1)) ? null : h("p", { class: "quiet" }, answer.reason),
+          answer.headline.includes(answer.reason.slice(1)) || (answer.verdict === "none" && !answer.reason.includes(";")) ? null : h("p", { class: "quiet" }, answer.reason),
           answer.would_show ? h("p", { id: "would-show" }, answer.would_show) : null,
           answer.effects.map(effectOf),
           answer.together ? h("p", { class: "quiet", style: { "margin-top": "8px" } }, answer.together) : null,

@@ -144,6 +144,8 @@ export function show(root, context) {
     saving: false,
     // Whether each condition may have a mounting of its own.
     mountings: false,
+    // Of what no file says, what was asked for as a column of the conditions.
+    columns: new Set(),
     // Quantities of which all files are corrected alike.
     together: new Set(),
     redraw: () => draw(),

@@ -92,6 +92,15 @@ function amount(key, text, onchange, id, named = "") {
   return h("label", { class: "inline" }, words(key), field, unit);
 }
 
+// What no name or head says can be said of each condition, too.
+const column = (bag, more) =>
+  h(
+    "label",
+    { class: "inline small" },
+    "a column for",
+    choose([["", "–"], ...more.map((key) => [key, words(key)])], "", (key) => key && bag.columns.add(key) && bag.redraw(), { id: "more-columns" }),
+  );
+
 export function conditions(bag) {
   const { data, choices, wish, putIn } = bag;
   const all = data.proposal.conditions,
@@ -99,7 +108,9 @@ export function conditions(bag) {
     used = new Set(Object.values(all).flatMap((c) => Object.keys(c))),
     asked = (key, runs) => matters(choices, key, runs.map((r) => r.quantity.value)),
     offered = ["load_torque", "temperature", "locked_at", ...(used.has("input_speed") ? [] : ["output_speed"])];
-  const keys = CONDITION.filter((k) => used.has(k) || (k === "mounting" && bag.mountings) || (offered.includes(k) && asked(k, data.proposal.runs)));
+  const keys = CONDITION.filter((k) => used.has(k) || bag.columns.has(k) || (k === "mounting" && bag.mountings) || (offered.includes(k) && asked(k, data.proposal.runs)));
+  // A speed is one of the two; mountings have a switch of their own.
+  const more = CONDITION.filter((k) => !keys.includes(k) && k !== "mounting" && !k.endsWith("_speed") && asked(k, data.proposal.runs));
   const rows = Object.entries(all).map(([name, stated]) => {
     const held = data.proposal.held_out[name],
       names = withJoined(data.proposal, name),
@@ -140,6 +151,6 @@ export function conditions(bag) {
       { class: "quiet small" },
       `Read from names and heads of the files; what stands here wins; ${TYPED}. ${keys.includes("locked_at") ? `${PLACE}. ` : ""}Held-out conditions are never fitted: the error that counts is theirs.`,
     ),
-    h("div", { class: "panel" }, mountings(bag, used.has("mounting")), table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
+    h("div", { class: "panel" }, h("div", { class: "row" }, mountings(bag, used.has("mounting")), more.length ? column(bag, more) : null), table(["condition", "runs", ...keys.map(words), "held out"], rows, [], { class: "rows level" })),
   );
 }

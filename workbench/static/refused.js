@@ -26,6 +26,9 @@ export function refusal(answer, extension, busy, add) {
   const tried = new Set(extension.steps.filter((s) => s.kept === false).map((s) => s.effects.join(" + "))).add(extension.effects.join(" + ")),
     // What was turned down first stands nearest.
     others = [...new Set([...offered(answer), ...answer.rejected.slice(0, MOST_TURNED_DOWN).map((r) => r.name)])].filter((name) => !tried.has(name));
+  // Where nothing was named nothing is asked for, and a refusal is what was to be expected.
+  const named = answer.verdict !== "none",
+    after = named ? " and measure what it asks for next" : ", which names nothing that is missing";
   return h(
     "div",
     { id: "refused" },
@@ -36,8 +39,8 @@ export function refusal(answer, extension, busy, add) {
       "p",
       { class: "quiet" },
       others.length
-        ? "What can be done: try another effect that the diagnosis looked at, or go back to its answer and measure what it asks for next."
-        : "All that the diagnosis named was tried. Go back to its answer, and measure what it asks for next.",
+        ? `What can be done: try another effect that the diagnosis looked at, or go back to its answer${after}.`
+        : `All that the diagnosis ${named ? "named" : "looked at first"} was tried. Go back to its answer${after}.`,
     ),
     h(
       "div",

@@ -4,6 +4,7 @@ For each group G of generic functions S = r'MG (G'MG)^+ G'Mr is tested against t
 replicates, with Satterthwaite's degrees of freedom, and corrected for multiplicity after Holm.
 """
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -193,7 +194,7 @@ class Localiser:
                 cell[0] += float((s / scale) @ pinv @ (s / scale))
                 cell[1] += pick.size
             for condition, (total, width) in sums.items():
-                result[stream][condition] = total / max(width, 1)
+                result[stream][condition] = math.sqrt(total / max(width, 1))
         return dict(result)
 
 

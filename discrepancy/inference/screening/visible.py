@@ -176,8 +176,8 @@ def predicted(space: Workspace, own: _Own, place: _Place) -> float:
 
 
 def between(below: tuple[float, float], above: tuple[float, float]) -> float:
-    """Where t would be a little more than it takes: on the straight line between both, but a fifth of the way from either (behind a gap it is no line); up to four
-    times as large where nothing was seen yet."""
+    """Where t would be a little more than it takes: on the straight line between both, but a fifth of the way from either (behind a gap it is no
+    line); up to four times as large where nothing was seen yet."""
     if math.isinf(above[0]):
         return below[0] * min(max(AIM / max(below[1], 1e-300), 1.2), 4.0)
     share = (AIM - below[1]) / (above[1] - below[1])
