@@ -51,7 +51,7 @@ def inverted_w(context: Context) -> Finding:
     curves.append(tooth_curve("one way, only 24 positions a turn", coarse, colour="#98a3af",
                               width=1.2))
     g = way.contacts[0].geometry
-    figure = chart("wear_profile", "Depth along a whole tooth, BX-40E-rigid", "Mean of all teeth; turning pins.", curves,
+    figure = chart("wear_profile", "Depth along a whole tooth, BX-40E-rigid where no other reducer is named", "Mean of all teeth; turning pins.", curves,
                    PHASE + ", 360 next root", "depth [µm]", 12, 340,
                    [(g.inflection, "inflection"), (360.0 - g.inflection, "inflection"), (180.0, "tip")],
                    degrees_axis(360.0))

@@ -52,7 +52,7 @@ def test_what_was_given_is_counted_and_a_rounded_ratio_is_said(tmp_path, capsys)
     assert "given: ratio 105.3, 40 pins, rated torque 500 N m, diameter 230 mm, 15 rpm of the output (as usual), 16 rollers a bearing (as usual), pin.radius 3 mm; of the file's 53 numbers 5 follow" in said
     assert "from that alone (pin.radius, first_stage.ratio, input.speed, output.load_torque, wear.run_in_crank_speed), 17 come by published rules, 31 are assumed;" in said
     assert main(["reducer", "check", path]) == 0
-    assert "53 numbers stated (5 given, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
+    assert "53 numbers in the file (5 given or derived, 17 by rule, 31 assumed), 1 filled in" in capsys.readouterr().out
     assert not rounded_ratio(Given(ratio=121.0, pins=40, rated=167.0))
 
 

@@ -1,5 +1,6 @@
 """A life on the page: its curves as they grow, its report at the end; paused and gone on with like ``rvwear life --resume``."""
 
+import math
 import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from workbench.told import write_json
 
 if TYPE_CHECKING:
     from discrepancy.model_file import ModelFile
+    from reducers.reducer import Reducer
     from studies.life import Life
 
 # What is drawn, by the names of a life's figures: title and unit; those of one pane together.
@@ -47,6 +49,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     wanted = WantedLife(reducer, settings, LifeSettings(hours))
     path = folder.root / "results" / f"{file_name(reducer.name)}_life.nc"
     path.parent.mkdir(exist_ok=True)
+    at = duty_words(reducer, given)
     before: dict[str, Any] = {}
     now: dict[str, Any] = {}
 
@@ -54,7 +57,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
         nonlocal before, now
         if now and now["pass"] != state.passes:
             before = now
-        now = so_far(state, ended) | {"model": str(given["model"]), "until": hours}
+        now = so_far(state, ended) | {"model": str(given["model"]), "until": hours, "at": at}
         write_json(place / "live.json", {"now": now, "before": before})
 
     with held(path):
@@ -67,7 +70,7 @@ def life(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> bool:
     figures = [{name: float(dataset[name][i]) for _, _, lines in PANES for name, _ in lines} for i in range(dataset.sizes["hour"])]
     write_json(place / "result.json", {
         **curves([float(h) for h in dataset["hour"].values], figures), "model": str(given["model"]), "file": path.relative_to(folder.root).as_posix(),
-        "title": dataset.attrs["title"], "command": command(file, hours, texts, path),
+        "title": dataset.attrs["title"], "at": at, "command": command(file, hours, texts, path),
         "size": (place / "report.html").stat().st_size,
     })  # fmt: skip
     return False
@@ -98,6 +101,13 @@ def settings_of(given: dict[str, Any]) -> list[str]:
     """Load and speed of the form, as the command takes them; what is not given stays as the file has it."""
     torque, speed = positive(given, "torque"), positive(given, "speed", SPEED)
     return [*([f"output.load_torque={torque!r}N.m"] if torque else []), *([f"input.speed={speed!r}{SPEED}"] if speed else [])]
+
+
+def duty_words(reducer: "Reducer", given: dict[str, Any]) -> str:
+    """Torque and speed that a life runs at, of the form or as the file has them."""
+    torque = positive(given, "torque") or abs(reducer.starts["load_torque"])
+    speed = positive(given, "speed", SPEED) or abs(reducer.starts["input_speed"]) * 30.0 / math.pi
+    return f"{torque:,.4g} N m on the output, {speed:,.4g} {SPEED} of the sun"
 
 
 def positive(given: dict[str, Any], name: str, unit: str = "") -> float | None:

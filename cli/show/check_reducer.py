@@ -52,6 +52,6 @@ def stated_words(sources: Mapping[str, str]) -> str:
     assumed = sum("assumed" in source for source in own)
     by_rule = sum(source.startswith(COMPLETED) and "assumed" not in source for source in own)
     given = len(sources) - len(found) - assumed - by_rule
-    counts = ((given, "given"), (len(found), "looked for to meet the catalogue"), (by_rule, "by rule"), (assumed, "assumed"))
+    counts = ((given, "given or derived"), (len(found), "looked for to meet the catalogue"), (by_rule, "by rule"), (assumed, "assumed"))
     parts = [f"{count} {words}" for count, words in counts if count]
-    return f"{len(sources)} numbers stated" + (f" ({', '.join(parts)})" if len(parts) > 1 else "")
+    return f"{len(sources)} numbers in the file" + (f" ({', '.join(parts)})" if len(parts) > 1 else "")

@@ -88,7 +88,7 @@ def size_text(v: Visible) -> str:
     scale = scale_of(v)
     if math.isfinite(v.size):
         return scale.text(v.size, 2) + (" or less" if v.or_less else "")
-    return f"not everywhere; {scale.text(v.at_best, 2)} at best" if math.isfinite(v.at_best) else "no size within its bounds"
+    return f"not everywhere; {scale.text(v.at_best, 2)} at best" if math.isfinite(v.at_best) else "no size that a reducer has"
 
 
 def rows(found: Sequence[Visible]) -> list[list[str]]:

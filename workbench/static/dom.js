@@ -80,11 +80,25 @@ export function table(head, rows, right = [], given = {}) {
 }
 
 // Beside a number: by which relation, from which data, with which margin; opened by a click or by Enter.
+// In a table the answer has a row of its own: in a cell it would squeeze the columns of all rows.
+function below(asked) {
+  const row = asked.closest("td")?.parentElement;
+  if (!row) return;
+  if (asked.open && !asked.answer) {
+    asked.answer = h("tr", { class: "because" }, h("td", { colspan: row.cells.length }, asked.querySelector("dl")));
+    row.after(asked.answer);
+  } else if (!asked.open && asked.answer) {
+    asked.append(asked.answer.querySelector("dl"));
+    asked.answer.remove();
+    asked.answer = null;
+  }
+}
+
 export const why = (of, about) =>
   of
     ? h(
         "details",
-        { class: "why" },
+        { class: "why", ontoggle: (event) => below(event.target) },
         h("summary", { "aria-label": `why ${about}?` }, "why?"),
         h(
           "dl",

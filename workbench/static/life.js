@@ -173,6 +173,7 @@ export function show(root, context) {
         result ? result.title : `${now.model}: ${since(now)}`,
       ),
       h("p", { class: "lead" }, `${result ? "" : `pass ${now.pass}, in ${jumps(now.jumps)}: `}${last.join(" · ")}`),
+      now.at ? h("p", { class: "quiet", id: "life-at" }, `at ${now.at}`) : null,
       h("p", { class: "quiet small" }, now.how ?? ""),
       result ? null : h("p", { class: "quiet small", id: "which-pass" }, whichPass(now, live.before)),
     );

@@ -30,6 +30,8 @@ LEFT = 1e-6
 OR_LESS = 0.1
 # Up to so many usual sizes what is straight at the usual one is taken to be so.
 KNOWN_STRAIGHT = 3.0
+# Usual sizes beyond which no reducer has an effect, wherever its bounds are; what shows there alone is what rounding leaves of it.
+MOST_TIMES = 30.0
 # Whole predictions for one amplitude, at most; and by how much t may then be more than what was asked for.
 ROUNDS, NEAR = 6, 0.3
 AIM = 1.0 + 0.5 * NEAR
@@ -38,8 +40,8 @@ AIM = 1.0 + 0.5 * NEAR
 @dataclass(frozen=True)
 class Visible:
     """From which size [SI, as distance from ``Parameter.off``] one amplitude of a candidate would have been seen: with shapes (a direction, a speed) and to
-    the side that show it worst; infinite if not within its bounds.  ``usual`` is its usual size; ``or_less``: smaller ones, too; ``at_best``: where the shapes
-    show it best, of those that are not seen everywhere."""
+    the side that show it worst; infinite if not within its bounds, nor ``MOST_TIMES`` its ``usual`` size; ``or_less``: smaller ones, too;
+    ``at_best``: where the shapes show it best, of those that are not seen everywhere."""
 
     candidate: str
     title: str
@@ -99,7 +101,7 @@ class _Place:
     @property
     def reach(self) -> float:
         p = self.amplitude
-        return (p.upper - p.off if self.side > 0 else p.off - p.lower) / p.scale
+        return min((p.upper - p.off if self.side > 0 else p.off - p.lower) / p.scale, MOST_TIMES)
 
 
 def visible(space: Workspace, candidates: Sequence[Candidate], columns: Columns, needed: Mapping[str, float]) -> list[Visible]:
