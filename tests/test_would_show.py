@@ -103,6 +103,9 @@ def test_a_sentence_counts_what_was_seen_and_names_what_was_not():
     assert WouldShow([seen], [], []).sentence == "the one effect that changes something here would have been seen at its usual size"
     assert WouldShow([seen, replace(seen, candidate="unbalance")], [], []).sentence == "all 2 effects that change something here would have been seen at their usual size"
     assert "says nothing" in WouldShow([], [], []).sentence
+    never = replace(seen, size=math.inf)
+    assert WouldShow([never, *waves], [], []).sentence == "none of the 2 effects that change something here would have been seen at its usual size: this answer says little"
+    assert WouldShow([never, *waves], [], []).never == ["drag"] and [v.candidate for v in WouldShow([never, *waves], [], []).hard] == ["pin_seats.two_waves"] * 2
 
 
 def test_forms_stand_behind_their_effect():

@@ -25,6 +25,8 @@ def show_would_show(found: WouldShow, out: Console) -> None:
             out.print(f"and {len(hard) - LONGEST} more: --json lists all")
     if found.easy:
         out.print(f"seen at a tenth of its usual size: {effects_words(found.easy)}")
+    if found.never:
+        out.print(f"not seen at any size that a reducer has, in all their numbers: {effects_words(found.never)}")
     if found.silent:
         out.print(f"change nothing here, whatever their size: {effects_words(found.silent)}")
     if found.lacking:

@@ -15,6 +15,8 @@ def section(found: WouldShow) -> Section:
     lead = "From which size on each effect is seen in 95 of 100 campaigns like this one, beside the size that it usually has."
     if found.easy:
         lead += f" Seen at a tenth of its usual size: {effects_words(found.easy)}."
+    if found.never:
+        lead += f" Not seen at any size that a reducer has, in all their numbers: {effects_words(found.never)}."
     if found.silent:
         lead += f" Changing nothing here, whatever their size: {effects_words(found.silent)}."
     tables = []

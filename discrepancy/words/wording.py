@@ -224,7 +224,9 @@ def tone(answer: Answer) -> str:
         return TONES[answer.verdict]
     if answer.verdict in (ONE, SEVERAL):
         return "good" if answer.effects and is_shown(answer, answer.effects[0]) else "fair"
-    return "good" if answer.verdict == NONE and unused_within_noise(answer) else "plain"
+    # Where nothing would have been seen, that nothing was seen is no good news.
+    little = answer.would_show is not None and answer.would_show.says_little
+    return "good" if answer.verdict == NONE and unused_within_noise(answer) and not little else "plain"
 
 
 def unused_within_noise(answer: Answer) -> bool:

@@ -39,14 +39,24 @@ class WouldShow:
 
     @property
     def hard(self) -> list[Visible]:
-        """What must have more than a tenth of its usual size to be seen."""
-        return [v for v in self.found if not v.times <= OR_LESS]
+        """What must have more than a tenth of its usual size to be seen, and is seen somewhere."""
+        return [v for v in self.found if not v.times <= OR_LESS and math.isfinite(min(v.size, v.at_best))]
+
+    @property
+    def never(self) -> list[str]:
+        """Effects of which some number is not seen at any size that a reducer has, wherever."""
+        return list(dict.fromkeys(v.candidate for v in self.found if math.isinf(min(v.size, v.at_best))))
 
     @property
     def easy(self) -> list[str]:
         """Effects of which a tenth of the usual size would have been seen, whichever of their numbers it is."""
-        hard = {v.candidate for v in self.hard}
+        hard = {v.candidate for v in self.hard} | set(self.never)
         return [name for name in self.effects if name not in hard]
+
+    @property
+    def says_little(self) -> bool:
+        """Whether nothing would have been seen at its usual size."""
+        return len(self.missed) == len(self.effects)
 
     @property
     def sentence(self) -> str:
@@ -58,9 +68,12 @@ class WouldShow:
             return "the one effect that changes something here would have been seen at its usual size"
         if not missed:
             return f"all {count} effects that change something here would have been seen at their usual size"
+        if self.says_little:
+            which = f"none of the {count} effects that change something here" if count > 1 else "the one effect that changes something here"
+            return f"{which} would {'' if count > 1 else 'not '}have been seen at its usual size: this answer says little"
         names = effects_words(missed[:MOST_NAMED]) + (f" and {len(missed) - MOST_NAMED} more" if len(missed) > MOST_NAMED else "")
         left = count - len(missed)
-        seen = f"of {count} effects that change something here, {left or 'none'} would have been seen at {'its' if left == 1 else 'their'} usual size"
+        seen = f"of {count} effects that change something here, {left} would have been seen at {'its' if left == 1 else 'their'} usual size"
         return f"{seen}; not, or only where they are larger: {names}"
 
     def as_json(self) -> dict[str, Any]:
@@ -88,7 +101,7 @@ def size_text(v: Visible) -> str:
     scale = scale_of(v)
     if math.isfinite(v.size):
         return scale.text(v.size, 2) + (" or less" if v.or_less else "")
-    return f"not everywhere; {scale.text(v.at_best, 2)} at best" if math.isfinite(v.at_best) else "no size that a reducer has"
+    return f"not everywhere; {scale.text(v.at_best, 2)} at best"
 
 
 def rows(found: Sequence[Visible]) -> list[list[str]]:
