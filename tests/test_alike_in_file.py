@@ -63,7 +63,7 @@ def test_the_other_angle_stays_with_the_one_that_was_added(campaign, extension, 
     assert extension.as_json()["effects"]["pin_position_errors"][ANGLE]["alike"] == pytest.approx(np.degrees(entry["alike"]))
 
 
-def test_a_pin_of_a_model_is_told_as_a_whole_number_and_where_it_is_stays_with_it():
+def test_a_pin_of_a_model_is_told_as_a_whole_number_and_where_it_is_stays_with_it(campaign):
     """The file's list and the page of the model had 19.002, 18.986 to 19.019, and the step nothing."""
     number = {"value": 19.00239, "unit": "1", "low": 18.98578, "high": 19.019}
     file = replace(load_model("RV20E-121"), effects={"pin_position_errors": {"proud_pin": {"value": 6e-6, "unit": "m"}, "proud_pin_number": number}})
@@ -71,7 +71,7 @@ def test_a_pin_of_a_model_is_told_as_a_whole_number_and_where_it_is_stays_with_i
     assert row["value"] == "19 or 39" and row["source"].endswith("interval 19 or 39")
     (shown,) = [r for r in parameters(file).tables[0].rows if r[1].endswith("proud_pin_number")]
     assert shown[2:4] == ["19 or 39", "19 or 39"]
-    (proud,) = [c for c in candidates([], {}, set(), []) if c.name == "pin_position_errors.proud"]
+    (proud,) = [c for c in candidates(list(campaign.records), {}, set(), []) if c.name == "pin_position_errors.proud"]
     values = {"proud_pin": 6e-6, "proud_pin_number": 19.00239, "angle_zero[1]": np.radians(5.7)}
     fit = SimpleNamespace(candidates=(proud,), fit=SimpleNamespace(values=values))
     (left,) = either_told(fit, {}, load_model("RV20E-121"))
