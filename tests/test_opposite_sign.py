@@ -182,4 +182,4 @@ def test_a_pin_is_told_by_where_it_is_and_as_a_whole_number_with_those_that_look
     # Nothing says where angles count from, and discs of which no turn brings one where another has stood.
     assert between["parameters"]["proud_pin_number"]["meaning"].endswith("165.6 or 345.6 deg from pin 1, the way the output turns")
     single = SimpleNamespace(reducer=SimpleNamespace(topology=replace(RV.topology, pins=41, lobes=40)))
-    assert pins_in("proud_pin_number", 11.004, single.reducer.topology) == {"pins": [11]} and either_texts([effect], {}, single, more=False) == []
+    assert pins_in("proud_pin_number", 11.004, single.reducer) == {"pins": [11]} and either_texts([effect], {}, single, more=False) == []

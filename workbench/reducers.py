@@ -80,7 +80,7 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
                 # With the other value that shows the same, where there is one.
                 value, ends = written["value"], [written[end] for end in ("low", "high") if end in written]
                 estimate = {**written, "interval": ends if len(ends) == 2 else (value, value), "direction": is_direction(name, key)}
-                estimate |= pins_in(key, value, file.reducer.topology)
+                estimate |= pins_in(key, value, file.reducer)
                 told = dict(zip(("value", "interval") if len(ends) == 2 else ("value",), both_texts(estimate, float, 5, number)))
             interval = f", interval {told['interval']}" if "interval" in told else ""
             rows.append({

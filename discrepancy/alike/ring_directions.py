@@ -28,7 +28,7 @@ def seen_from_crank(effects: Sequence[Mapping[str, Any]], values: Mapping[str, f
     of its pins, so that what can be carried to the part counts from crank 1 at the encoder's zero."""
 
     def told(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
-        if pins := pins_in(name, entry["value"], file.reducer.topology):
+        if pins := pins_in(name, entry["value"], file.reducer):
             # Where it is comes first: by what the number means nobody finds the pin.
             where = pins_text(pins["pins"], zeros_in(values), file)
             return {**entry, **pins, "meaning": "; ".join(filter(None, (where, entry.get("meaning"))))}
@@ -79,7 +79,7 @@ def either_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, floa
     texts = []
     for effect in effects:
         for name, entry in effect["parameters"].items():
-            if len(found := pins_in(name, entry["value"], file.reducer.topology).get("pins", ())) > 1:
+            if len(found := pins_in(name, entry["value"], file.reducer).get("pins", ())) > 1:
                 where = pins_text(found, zeros_in(values), file)
                 texts.append(f"{told_name(name, tables_of(file))}: {where}; {PINS_BY_SYMMETRY if not more else PINS_BY_RUNS}")
             if "alike" not in entry or not entry.get("direction"):

@@ -193,7 +193,7 @@ def parameters(file: ModelFile) -> Section:
                 "direction": is_direction(effect, name),
                 "unit": entry.get("unit", "1"),
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
-            } | ({"alike": entry["alike"]} if "alike" in entry else {}) | pins_in(name, entry["value"], file.reducer.topology)
+            } | ({"alike": entry["alike"]} if "alike" in entry else {}) | pins_in(name, entry["value"], file.reducer)
             value, interval, unit = amounts.estimate(both)
             rows.append([effect_words(effect) if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from reducers.reducer import Reducer
 from rv_plant.pin_numbers import PIN_NUMBERS, pin_of, pins_alike
-from rv_plant.topology import Topology
 
 # A number as text, with so many significant digits.
 Writer = Callable[[float, int], str]
@@ -71,9 +71,9 @@ def both_texts(entry: Mapping[str, Any], number: Callable[[float], float], least
     return value, interval
 
 
-def pins_in(name: str, value: float, t: Topology) -> dict[str, list[float]]:
+def pins_in(name: str, value: float, reducer: Reducer) -> dict[str, list[float]]:
     """``pins`` of an estimate that is the number of a pin: it, and those that show the same; nothing of any other."""
-    return {"pins": pins_alike(value, t)} if name in PIN_NUMBERS else {}
+    return {"pins": pins_alike(value, reducer.topology)} if name in PIN_NUMBERS else {}
 
 
 def pin_texts(entry: Mapping[str, Any], least: int, write: Writer) -> tuple[str, str]:
