@@ -26,12 +26,20 @@ def mounting_of(zero: str) -> str:
     return zero.removeprefix(ZERO).rstrip("]")
 
 
-def zero_texts(reducer: Reducer, steps: Iterable[Mapping[str, Any]]) -> list[str]:
-    """A line for each mounting of which it is known: where its angle 0 is, and how its positions become those of the model."""
+def zero_texts(reducer: Reducer, steps: Iterable[Mapping[str, Any]], locked_at: float | None = None) -> list[str]:
+    """A line for each mounting of which it is known: where its angle 0 is, and how its positions become those of the model; ``locked_at`` [deg] is told in
+    both ways."""
     t = reducer.topology
     ratio = abs(total_ratio(reducer.starts["first_stage_ratio"], t.pins, t.lobes))
-    return [
-        f"angle 0 of campaign {quoted(campaign)}, mounting {quoted(mounting)}, is at output angle {math.degrees(zero):.4g} deg of this model:"
-        f" --locked-at is the campaign's position of the input {'-' if zero < 0.0 else '+'} {math.degrees(abs(zero)) * ratio:.1f} deg"
-        for (campaign, mounting), zero in zeros_of(steps).items()
-    ]
+    found = []
+    for (campaign, mounting), zero in zeros_of(steps).items():
+        on = math.degrees(zero) * ratio
+        both = ""
+        if locked_at is not None:
+            # No minus before a place that is none.
+            both = f"; its {locked_at:g} deg is --locked-at {locked_at + on:.1f}, and --locked-at {locked_at:g} its {round(locked_at - on, 1) + 0.0:.1f} deg"
+        found.append(
+            f"angle 0 of campaign {quoted(campaign)}, mounting {quoted(mounting)}, is at output angle {math.degrees(zero):.4g} deg of this model:"
+            f" --locked-at is the campaign's position of the input {'-' if zero < 0.0 else '+'} {abs(on):.1f} deg{both}"
+        )
+    return found

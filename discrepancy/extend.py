@@ -27,7 +27,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Candidate
+from discrepancy.problem import BASE, Candidate, Parameter
 from discrepancy.verdict import Answer
 from discrepancy.words import as_told
 from discrepancy.words.intervals import relied_on
@@ -145,11 +145,11 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
 
 def either_told(fit: Refit, others: Mapping[str, float], file: ModelFile) -> list[str]:
     """What stays open of numbers that were fitted and of which ``others`` show the same."""
-    effects = [
-        {"candidates": [c.name], "parameters": {p.name: {"value": fit.fit.values[p.name], "alike": others[p.name], "direction": p.is_direction}
-                                                for p in c.parameters if p.name in others}}
-        for c in fit.candidates
-    ]  # fmt: skip
+
+    def told(p: Parameter) -> dict[str, Any]:
+        return {"value": fit.fit.values[p.name], "direction": p.is_direction} | ({"alike": others[p.name]} if p.name in others else {})
+
+    effects = [{"candidates": [c.name], "parameters": {p.name: told(p) for p in c.parameters}} for c in fit.candidates]
     return either_texts(effects, fit.fit.values, file, bool(file.effects) or len(fit.candidates) > 1)
 
 

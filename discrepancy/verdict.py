@@ -13,7 +13,7 @@ from typing import Any
 
 from discrepancy.alike.opposite_sign import with_others
 from discrepancy.alike.other_places import placed
-from discrepancy.alike.ring_directions import either_texts, ring_texts, seen_from_crank
+from discrepancy.alike.ring_directions import either_texts, seen_from_crank
 from discrepancy.alike.unsearched_places import unsearched_text
 from discrepancy.alike.untold import origins_untold, parts_untold_before
 from discrepancy.campaign.model import Campaign
@@ -197,7 +197,6 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
     effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
-    doubts += ring_texts(effects, fit.values, model.file)
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     untold += either_texts(effects, fit.values, model.file, bool(model.file.effects) or verdict == SEVERAL)
     # Who interrupts waits for nothing more.

@@ -9,9 +9,10 @@ import pytest
 from cli.show.comparison import show_extension
 from discrepancy.compare import compare
 from discrepancy.experiment.next_run import questions_left
-from discrepancy.extend import extend
+from discrepancy.extend import either_told, extend
 from discrepancy.model_file import ModelFile, load_model, save_model
 from discrepancy.page.extension import extension_page, model_page, parameters
+from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
@@ -60,3 +61,18 @@ def test_the_other_angle_stays_with_the_one_that_was_added(campaign, extension, 
     (shown,) = [r for r in parameters(file).tables[0].rows if r[1] == ANGLE]
     assert shown[2].count(" or ") == 1 and shown[3].count(" to ") == 2
     assert extension.as_json()["effects"]["pin_position_errors"][ANGLE]["alike"] == pytest.approx(np.degrees(entry["alike"]))
+
+
+def test_a_pin_of_a_model_is_told_as_a_whole_number_and_where_it_is_stays_with_it(campaign):
+    """The file's list and the page of the model had 19.002, 18.986 to 19.019, and the step nothing."""
+    number = {"value": 19.00239, "unit": "1", "low": 18.98578, "high": 19.019}
+    file = replace(load_model("RV20E-121"), effects={"pin_position_errors": {"proud_pin": {"value": 6e-6, "unit": "m"}, "proud_pin_number": number}})
+    (row,) = [r for r in added(file) if r["name"].endswith("proud_pin_number")]
+    assert row["value"] == "19 or 39" and row["source"].endswith("interval 19 or 39")
+    (shown,) = [r for r in parameters(file).tables[0].rows if r[1].endswith("proud_pin_number")]
+    assert shown[2:4] == ["19 or 39", "19 or 39"]
+    (proud,) = [c for c in candidates(list(campaign.records), {}, set(), []) if c.name == "pin_position_errors.proud"]
+    values = {"proud_pin": 6e-6, "proud_pin_number": 19.00239, "angle_zero[1]": np.radians(5.7)}
+    fit = SimpleNamespace(candidates=(proud,), fit=SimpleNamespace(values=values))
+    (left,) = either_told(fit, {}, load_model("RV20E-121"))
+    assert left.startswith("effects.pin_position_errors.proud_pin_number: it is one of 2 pins, which show the same: 156.3 or 336.3 deg from crank 1")

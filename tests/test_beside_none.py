@@ -18,7 +18,7 @@ def test_what_stands_far_off_is_explained(monkeypatch):
     record = space.records[space.training[0]]
     figure = replace(FIGURE, signal=record.quantity, condition=record.condition)
     # What is said of files and places needs a campaign of files.
-    for name in ("beforehand", "warnings_of", "placed", "zero_texts", "origins_untold", "parts_untold_before", "ring_texts", "zeros_told", "would_show"):
+    for name in ("beforehand", "warnings_of", "placed", "zero_texts", "origins_untold", "parts_untold_before", "zeros_told", "would_show"):
         monkeypatch.setattr(verdict, name, lambda *given: [])
     answer = verdict.answer_of(found.model, found.doctor, found.diagnosis, [figure])
     assert "8.2 times what its repetitions differ by" in answer.reason and "tests over all samples" in answer.reason and "(the least of " in answer.reason

@@ -66,3 +66,16 @@ def test_errors_that_a_file_states_are_drawn_and_a_part_of_an_effect_that_is_not
     assert "teeth of disc 1, up to 2.00 µm; teeth of disc 2, up to 2.00 µm." in caption and caption.endswith("Not drawn: unequal discs (disc offset x).")
     figure = assembly(stated, None)
     assert not parts_off(stated) and "Errors" not in figure.caption and "Not drawn" not in figure.caption
+
+
+def test_a_pin_that_was_fitted_is_drawn_as_one_and_the_force_beside_it_is_that_of_one_angle():
+    """At 19.002 pin 20 stood in red, too, and 19 with 6.00 um of 6.012."""
+    reducer = drawn(proud_pin=6.01179 * UM, proud_pin_number=19.00239)
+    (pin,) = off_by(reducer)["pins"]
+    assert np.abs(pin) == pytest.approx(6.01179)
+    # Between two it is both that the model has.
+    assert len(off_by(drawn(proud_pin=6 * UM, proud_pin_number=19.4))["pins"]) == 2
+    # 773 N beside 1,260 N of solve.
+    caption = zoom(assembly(reducer, None), reducer).caption
+    assert caption.startswith("At crank angle 0 the most loaded pin of disc 1 carries 773 N and ")
+    assert "pins touch it; over a turn of the cranks it may be more: rvwear solve has the largest." in caption

@@ -197,9 +197,11 @@ def test_a_model_file_and_the_command_say_what_positions_count_from(tmp_path, ca
     begins = "positions of the input count from where the model begins: an eccentric of disc 1 points at crank 1"
     assert main(["hysteresis", "--reducer", str(path), "--steps", "8", "--locked-at", "69.3"]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert begins in told and said in told
+    # Of the position that was typed both: the place of the bench of that name, and what the bench calls the one that was computed.
+    assert begins in told and f"{said}; its 69.3 deg is --locked-at 138.6, and --locked-at 69.3 its 0.0 deg" in told
     assert main(["hysteresis", "--steps", "4", "--angles", "1"]) == 0
     told = " ".join(capsys.readouterr().out.split())
+    assert "input locked, at 0 deg" in told and "mean of" not in told.partition("figure")[0]
     assert begins in told and "angle 0 of" not in told
     # And so it is: what the bench has at 0 is what the command shows there.
     text = conditions(a='locked_at = "0 deg"') + run("a", "lost_motion", "a", 'value = "0.9 arcmin"')

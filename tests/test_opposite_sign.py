@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from discrepancy.alike.opposite_sign import with_others
-from discrepancy.alike.ring_directions import either_texts, ring_texts, seen_from_crank
+from discrepancy.alike.ring_directions import either_texts, seen_from_crank
 from discrepancy.experiment import weighed_runs
 from discrepancy.experiment.weighed_runs import law_of, telling_either
 from discrepancy.inference.base_fit.workspace import Workspace
@@ -20,6 +20,7 @@ from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
 from discrepancy.scales import estimate_texts
 from discrepancy.words import as_told
+from discrepancy.words.intervals import pins_in
 from reducers.reducer import load_reducer
 from tests.test_next_run import CAMPAIGN
 
@@ -148,8 +149,6 @@ def test_a_direction_is_told_with_all_places_where_it_may_be():
     assert seen_from_crank([{"parameters": oval}], {}, ModelFile(RV.name, RV)) == [{"parameters": oval}]
     (seen,) = seen_from_crank([{"parameters": oval}], {"angle_zero[1]": np.radians(5.7)}, ModelFile(RV.name, RV))
     assert seen["parameters"]["pin_ring_ovality_angle"]["meaning"].startswith("the long axis; -94.83 deg from crank 1 where mounting 1 shows angle 0")
-    # Said at the number, and not again in another way.
-    assert not ring_texts([effect], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
 
 
 def test_both_values_and_their_intervals_stand_side_by_side():
@@ -161,10 +160,26 @@ def test_both_values_and_their_intervals_stand_side_by_side():
     assert estimate_texts(seat) == ("7 or -7", "6 to 9 or -9 to -6", "um")
 
 
-def test_a_pin_is_told_with_those_that_look_alike_and_from_where_it_counts():
-    effect = {"parameters": {"proud_pin": {"value": 5e-6}, "proud_pin_number": {"value": 10.996}}}
-    alike, counted = ring_texts([effect], {"angle_zero[1]": 0.1}, ModelFile(RV.name, RV))
-    assert alike == "pin 11 shows the same as pin 31: turned there, the reducer looks as it does"
-    assert counted.startswith("pins round the ring count from its pin 1") and counted.endswith("and the pin with it)")
-    # Discs of which no turn brings one where another has stood, and nothing that says where angles count from.
-    assert ring_texts([effect], {}, SimpleNamespace(reducer=SimpleNamespace(topology=replace(RV.topology, pins=41, lobes=40)))) == []
+def test_a_pin_is_told_by_where_it_is_and_as_a_whole_number_with_those_that_look_alike():
+    """19.002, 18.986 to 19.019, and apart from it from where pins count: which one to take out stood nowhere."""
+    number = {"value": 19.00239, "interval": [18.98578, 19.019], "unit": "1", "meaning": "which pin is proud"}
+    effect = {"candidates": ["pin_position_errors.proud"], "parameters": {"proud_pin": {"value": 6e-6}, "proud_pin_number": number}}
+    file, zeros = ModelFile(RV.name, RV), {"angle_zero[1]": np.radians(5.7)}
+    (seen,) = seen_from_crank([effect], zeros, file)
+    told = seen["parameters"]["proud_pin_number"]
+    assert seen["parameters"]["proud_pin"] == {"value": 6e-6} and told["value"] == 19.00239 and told["pins"] == [19, 39]
+    where = "it is one of 2 pins, which show the same: 156.3 or 336.3 deg from crank 1 where mounting 1 shows angle 0, the way the output turns"
+    assert told["meaning"] == f"{where}; the number counts from pin 1, and any of the 40 pins may be pin 1; which pin is proud"
+    assert estimate_texts(told) == ("19 or 39", "19 or 39", "") and amounts.estimate(told) == ("19 or 39", "19 or 39", "")
+    assert as_told.parameter(told)["value"] == 19.00239 and as_told.parameter(told)["pins"] == [19, 39]
+    (left,) = either_texts([seen], zeros, file, more=False)
+    assert where in left and left.endswith("turned from one to the other it looks as it does; measure these pins")
+    assert either_texts([seen], zeros, file, more=True)[0].endswith("the runs that were fitted do not tell which of them it is")
+    # An interval has the whole pins that it may be; a number between two lies there, with digits.
+    assert estimate_texts({**told, "interval": [18.1, 19.6]})[1] == "18 to 20 or 38 to 40"
+    (between,) = seen_from_crank([{"parameters": {"proud_pin_number": {"value": 19.4, "interval": [19.38, 19.42], "unit": "1"}}}], {}, file)
+    assert estimate_texts(between["parameters"]["proud_pin_number"])[:2] == ("19.4 or 39.4", "19.38 to 19.42 or 39.38 to 39.42")
+    # Nothing says where angles count from, and discs of which no turn brings one where another has stood.
+    assert between["parameters"]["proud_pin_number"]["meaning"].endswith("165.6 or 345.6 deg from pin 1, the way the output turns")
+    single = SimpleNamespace(reducer=SimpleNamespace(topology=replace(RV.topology, pins=41, lobes=40)))
+    assert pins_in("proud_pin_number", 11.004, single.reducer) == {"pins": [11]} and either_texts([effect], {}, single, more=False) == []

@@ -11,7 +11,7 @@ from typing import Any
 from discrepancy.model_file import ModelFile, every_effect, extended_reducer, load_model, parameter_variable, written_name
 from discrepancy.scales import of_number
 from discrepancy.words.as_told import is_direction
-from discrepancy.words.intervals import both_texts
+from discrepancy.words.intervals import both_texts, pins_in
 from discrepancy.words.written_number import written_entry
 from fmu_src.checked_file import write_text
 from fmu_src.effect_words import effect_title
@@ -80,6 +80,7 @@ def added(file: ModelFile) -> list[dict[str, Any]]:
                 # With the other value that shows the same, where there is one.
                 value, ends = written["value"], [written[end] for end in ("low", "high") if end in written]
                 estimate = {**written, "interval": ends if len(ends) == 2 else (value, value), "direction": is_direction(name, key)}
+                estimate |= pins_in(key, value, file.reducer)
                 told = dict(zip(("value", "interval") if len(ends) == 2 else ("value",), both_texts(estimate, float, 5, number)))
             interval = f", interval {told['interval']}" if "interval" in told else ""
             rows.append({

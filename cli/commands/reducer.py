@@ -90,17 +90,18 @@ def hysteresis(options: argparse.Namespace) -> int:
         curve = {"torque_Nm": loop.torque.tolist(), "turning_arcmin": loop.turning.tolist()}
         screen.json_text({"reducer": reducer.name} | figures | curve | beyond)
     else:
-        where = f"mean of {options.angles} positions" if at is None else f"at {options.locked_at:g} deg"
+        # A single one is where the model begins.
+        where = f"mean of {options.angles} positions" if at is None and options.angles > 1 else f"at {options.locked_at or 0.0:g} deg"
         about = f"{reducer.heading}: torque up and down, input locked, {where}{effects_set(reducer, settings)}"
         few = f"fewer positions, other figures: rvwear reducer check takes the mean of {ANGLES}\n" if at is None and options.angles < ANGLES else ""
-        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{few}{counted_from(options.reducer)}")
+        screen.figures(about, figures, how=f"{HELD}\n{WIDTHS}\n{few}{counted_from(options.reducer, options.locked_at)}")
         say_rigid(rigid_supports(reducer, settings))
     export(options, lambda: loop_dataset(reducer, loop))
     return 0
 
 
-def counted_from(name: str) -> str:
-    """Of a reducer or model that a user named, what its positions count from."""
+def counted_from(name: str, locked_at: float | None) -> str:
+    """Of a reducer or model that a user named, what its positions count from, and what the position [deg] that was asked for is called there."""
     from discrepancy.counted_from import BEGINS, zero_texts
     from discrepancy.model_file import load_model
     from reducers.reducer import is_model_file
@@ -108,7 +109,7 @@ def counted_from(name: str) -> str:
     if not is_model_file(Path(name)):
         return BEGINS
     model = load_model(name)
-    return "\n".join([BEGINS, *zero_texts(model.reducer, model.steps)])
+    return "\n".join([BEGINS, *zero_texts(model.reducer, model.steps, locked_at)])
 
 
 def say_rigid(words: str) -> None:

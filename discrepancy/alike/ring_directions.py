@@ -7,24 +7,31 @@ from typing import Any
 from discrepancy.alike.opposite_sign import OTHER_WAY
 from discrepancy.counted_from import ZERO, mounting_of
 from discrepancy.model_file import ModelFile
-from discrepancy.prediction.candidates import PIN_NUMBERS
 from discrepancy.words.as_told import tables_of, told_name
+from discrepancy.words.intervals import pins_in
 from rv_plant.topology import Topology
 
-# Directions of effects that are fixed to the ring, and numbers of a pin.
+# Directions of effects that are fixed to the ring.
 OF_RING = "pin_ring_"
 # Why it stays open at which of two places an error is.
 BY_SYMMETRY = (
     "no run of the reducer as a whole tells which of the two it is, for turned by half a turn it looks as it does; measure the ring itself at these places"
 )
+# The same of pins, as many as there are ways.
+PINS_BY_SYMMETRY = "no run of the reducer as a whole tells which of them it is, for turned from one to the other it looks as it does; measure these pins"
+PINS_BY_RUNS = "the runs that were fitted do not tell which of them it is"
 THESE_RUNS = "the runs that were fitted do not tell which of the two it is"
 
 
 def seen_from_crank(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float], file: ModelFile) -> list[dict[str, Any]]:
-    """The effects, each direction with all places where it may be: ``alike`` is one that shows the same, and round the ring pin 1 may be any of its pins,
-    so that what can be carried to the part counts from crank 1 at the encoder's zero."""
+    """The effects, each direction and each pin with all places where it may be: ``alike`` is one that shows the same, and round the ring pin 1 may be any
+    of its pins, so that what can be carried to the part counts from crank 1 at the encoder's zero."""
 
     def told(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
+        if pins := pins_in(name, entry["value"], file.reducer):
+            # Where it is comes first: by what the number means nobody finds the pin.
+            where = pins_text(pins["pins"], zeros_in(values), file)
+            return {**entry, **pins, "meaning": "; ".join(filter(None, (where, entry.get("meaning"))))}
         places = places_text(name, entry, zeros_in(values), file)
         return {**entry, "meaning": "; ".join(filter(None, (entry.get("meaning"), places)))} if places else dict(entry)
 
@@ -45,6 +52,22 @@ def places_text(name: str, entry: Mapping[str, Any], zeros: Mapping[str, float],
     return f"{start}{angles_text(places)}" if start else ""
 
 
+def pins_text(found: Sequence[float], zeros: Mapping[str, float], file: ModelFile) -> str:
+    """``it is one of 2 pins, which show the same: 156.3 or 336.3 deg from crank 1 where mounting 1 shows angle 0, the way the output turns; ...``"""
+    pins = file.reducer.topology.pins
+    places = [360.0 * (pin - 1.0) / pins for pin in found]
+    start = f"it is one of {len(found)} pins, which show the same: " if len(found) > 1 else ""
+    if not zeros:
+        return f"{start}{round_text(places)} from pin 1, the way the output turns"
+    seen = ", ".join(f"{round_text(places, zero)} from crank 1 where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())
+    return f"{start}{seen}, the way the output turns; the number counts from pin 1, and any of the {pins} pins may be pin 1"
+
+
+def round_text(places: Sequence[float], zero: float = 0.0) -> str:
+    """``156.3 or 336.3 deg``, counted from ``zero`` [deg] on round the ring."""
+    return f"{' or '.join(f'{round(place - zero, 1) % 360.0:.1f}' for place in places)} deg"
+
+
 def angles_text(places: Sequence[float], zero: float = 0.0) -> str:
     """``10.61 or 70.61 deg``, counted from ``zero`` [deg]."""
     return f"{' or '.join(f'{place - zero:.2f}' for place in places)} deg"
@@ -56,6 +79,9 @@ def either_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, floa
     texts = []
     for effect in effects:
         for name, entry in effect["parameters"].items():
+            if len(found := pins_in(name, entry["value"], file.reducer).get("pins", ())) > 1:
+                where = pins_text(found, zeros_in(values), file)
+                texts.append(f"{told_name(name, tables_of(file))}: {where}; {PINS_BY_SYMMETRY if not more else PINS_BY_RUNS}")
             if "alike" not in entry or not entry.get("direction"):
                 continue
             places = places_text(name, entry, zeros_in(values), file)
@@ -74,22 +100,3 @@ def by_symmetry(name: str, t: Topology, more: bool) -> bool:
 def zeros_in(values: Mapping[str, float]) -> dict[str, float]:
     """By mounting where crank 1 stands at angle 0 [deg]."""
     return {mounting_of(name): math.degrees(value) for name, value in values.items() if name.startswith(ZERO)}
-
-
-def ring_texts(effects: Sequence[Mapping[str, Any]], values: Mapping[str, float], file: ModelFile) -> list[str]:
-    """Where pin 1 is, if an effect that is named is at a pin and a fit (``values``) has found where angles count from; which pins show the same."""
-    numbers = [entry["value"] for effect in effects for name, entry in effect["parameters"].items() if name in PIN_NUMBERS]
-    told = [alike_text(round(number), file.reducer.topology) for number in numbers]
-    zeros = zeros_in(values)
-    if zeros and numbers:
-        stands = ", ".join(f"{zero:.1f} deg where mounting {mounting} shows angle 0" for mounting, zero in zeros.items())
-        told.append(f"pins round the ring count from its pin 1, the way the output turns; crank 1 stands at {stands} (or whole pitches of the pins from there,"
-                    " and the pin with it)")  # fmt: skip
-    return [text for text in told if text]
-
-
-def alike_text(pin: int, t: Topology) -> str:
-    """The pins that show the same as this one: those onto which it comes as the reducer is turned onto itself."""
-    others = sorted((pin - 1 + k * t.pins // t.ways) % t.pins + 1 for k in range(1, t.ways))
-    first = (pin - 1) % t.pins + 1
-    return f"pin {first} shows the same as pin {' and pin '.join(map(str, others))}: turned there, the reducer looks as it does" if others else ""

@@ -7,6 +7,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, bars, ladder, whys
 from discrepancy.page.changed_figures import changed_figures
 from discrepancy.words.as_told import effect_name, is_direction
+from discrepancy.words.intervals import pins_in
 from discrepancy.words.sample_errors import FITTED, OF_PATTERNS, OF_SAMPLES, PATTERNS, SAMPLES, UNUSED
 from discrepancy.words.wording import signals_left
 from fmu_src.effect_words import effect_words
@@ -192,7 +193,7 @@ def parameters(file: ModelFile) -> Section:
                 "direction": is_direction(effect, name),
                 "unit": entry.get("unit", "1"),
                 "interval": [entry.get("low", entry["value"]), entry.get("high", entry["value"])],
-            } | ({"alike": entry["alike"]} if "alike" in entry else {})
+            } | ({"alike": entry["alike"]} if "alike" in entry else {}) | pins_in(name, entry["value"], file.reducer)
             value, interval, unit = amounts.estimate(both)
             rows.append([effect_words(effect) if k == 0 else "", effect_name(effect, name), value, interval if "low" in entry else "", unit])
     lead = "As the model file has them." if rows else "The model carries no effect beyond its reducer."

@@ -11,6 +11,7 @@ from discrepancy.prediction.orders import ROLLERS
 from discrepancy.problem import CHAIN, ERROR, ORDERS, Candidate, Parameter, Record, is_unplaced
 from fmu_src.effect import Effect, EffectParameter
 from rv_plant.effects import EFFECTS as PLANT
+from rv_plant.pin_numbers import PIN_NUMBERS
 
 # Quantities that show what an effect's ``signals`` name in short.
 SHOWN_BY = {
@@ -19,8 +20,6 @@ SHOWN_BY = {
 }  # fmt: skip
 # Searched by hand only: a constant moment on the flange shows as discs that are misaligned with the ring, which stand for both.
 NOT_SEARCHED = {"constant moment"}
-# Which pin it is: some of them look alike.
-PIN_NUMBERS = {"proud_pin_number"}
 # So many numbers of a group fit any few depths or torques: looked for only where a pattern over the angle tells.
 PATTERNS = {"harmonics": (ERROR, ORDERS)}
 # What these change in loops at a few places, or in their mean, any spring does as well: looked for only where other signals show them, too.

@@ -4,6 +4,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from reducers.reducer import Reducer
+from rv_plant.pin_numbers import PIN_NUMBERS, pin_of, pins_alike
+
 # A number as text, with so many significant digits.
 Writer = Callable[[float, int], str]
 UNDETERMINED = "not determined"
@@ -61,6 +64,32 @@ def estimate_text(value: float, interval: tuple[float, float], least: int, write
 
 def both_texts(entry: Mapping[str, Any], number: Callable[[float], float], least: int, write: Writer) -> tuple[str, str]:
     """``estimate_text`` of an estimate, in the unit that ``number`` makes, and behind it that of the other value that shows the same."""
+    if "pins" in entry:
+        return pin_texts(entry, least, write)
     texts = [estimate_text(number(value), (number(low), number(high)), least, write) for value, (low, high) in values_of(entry)]
     value, interval = (" or ".join(dict.fromkeys(told)) for told in zip(*texts))
     return value, interval
+
+
+def pins_in(name: str, value: float, reducer: Reducer) -> dict[str, list[float]]:
+    """``pins`` of an estimate that is the number of a pin: it, and those that show the same; nothing of any other."""
+    return {"pins": pins_alike(value, reducer.topology)} if name in PIN_NUMBERS else {}
+
+
+def pin_texts(entry: Mapping[str, Any], least: int, write: Writer) -> tuple[str, str]:
+    """``19 or 39``, ``19 or 39`` of the number of a pin: whole, unless it lies between two pins; the interval has the pins that it may be."""
+    value, (low, high) = entry["value"], relied_on(entry)
+    told = [estimate_text(pin, (low + pin - value, high + pin - value), least, write) for pin in entry["pins"]]
+    if all(pin == round(pin) for pin in entry["pins"]):
+        # The interval is as wide about each of them; its ends count from the number that was fitted, not from the pin nearest to it.
+        shifts = [pin - entry["pins"][0] for pin in entry["pins"]]
+        told = [(f"{pin:.0f}", text if text == UNDETERMINED else pins_between(low + shift, high + shift))
+                for pin, shift, (_, text) in zip(entry["pins"], shifts, told)]  # fmt: skip
+    pins, intervals = (" or ".join(dict.fromkeys(texts)) for texts in zip(*told))
+    return pins, intervals
+
+
+def pins_between(low: float, high: float) -> str:
+    """``19``, or ``18 to 20``: a whole pin beyond an end that lies between two."""
+    first, last = (near if (near := pin_of(end)) == round(near) else outer(end) for end, outer in ((low, math.floor), (high, math.ceil)))
+    return f"{first:.0f} to {last:.0f}" if first < last else f"{first:.0f}"

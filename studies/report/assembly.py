@@ -17,6 +17,7 @@ from pages.words import number
 from reducers.reducer import Reducer
 from rv_plant.effects import EFFECTS
 from rv_plant.geometry import lobe_point, shortening
+from rv_plant.pin_numbers import PIN_NUMBERS, pin_of
 from studies.report.shapes import MM, directions, joined, ring
 
 # Points per lobe, and the length of the largest force in pin circle radii.
@@ -27,6 +28,8 @@ CUSP = 1e-6
 # Of a drawing's width, the longest that its scale may be.
 SCALE_SHARE = 0.2
 DISC_COLOURS = ("#0b4f94", "#d55e00", "#009e73")
+# Forces of a picture are those of one place: another pin, or a proud one, has more at another.
+OVER_A_TURN = "over a turn of the cranks it may be more: rvwear solve has the largest"
 # Of parts out of place; the largest error is drawn at most so long, in pin circle radii; what is less is none [mm].
 OFF, LONGEST_ERROR, NO_ERROR = "#a3195b", 0.04, 1e-9
 
@@ -148,7 +151,8 @@ def zoom(whole: Figure, reducer: Reducer) -> Figure:
     force = pin_forces(reducer)[0]
     centre = pin_places(reducer)[int(force.argmax())]
     half = 3.2 * MM * reducer.starts["pin_circle_radius"] * math.sin(math.pi / reducer.topology.pins)
-    caption = f"The most loaded pin carries {force.max():,.0f} N; {int((force > 0.0).sum())} of {force.size} pins touch disc 1."
+    touching = f"{int((force > 0.0).sum())} of {force.size} pins touch it"
+    caption = f"At crank angle 0 the most loaded pin of disc 1 carries {force.max():,.0f} N and {touching}; {OVER_A_TURN}."
     if times := enlarged(reducer, parts_off(reducer)):
         caption += f" Errors are drawn {times:,.0f} times."
     return zoomed(whole, centre, half, "Teeth and pins", caption)
@@ -202,7 +206,7 @@ def forces(reducer: Reducer) -> list[Trace]:
 
 def parts_off(reducer: Reducer) -> list[PartsOff]:
     """Parts out of place by effects, or by errors that the file states, kind by kind and disc by disc."""
-    found, t, now = [], reducer.topology, at_rest(reducer)[0]
+    found, t, now = [], reducer.topology, at_rest(at_whole_pins(reducer))[0]
     inner, outer, axis = (MM * reducer.starts[k] for k in ("inner_race_radius", "outer_race_radius", "crank_circle_radius"))
     ways = directions(360.0 * np.arange(t.cranks) / t.cranks)
     for d in range(t.discs):
@@ -219,6 +223,11 @@ def parts_off(reducer: Reducer) -> list[PartsOff]:
     # A seat's own radius is nobody's number: half of the race above it stands for it.
     found += [circles_off("seats of the cranks in the carrier", 0.5 * inner, axis * ways, MM * ways * seat), pins_off(reducer, now)]
     return [parts for parts in found if parts.ideal]
+
+
+def at_whole_pins(reducer: Reducer) -> Reducer:
+    """With an error that was fitted next to a pin at that pin, as its number is told: a few thousandths of it at the next one are no error there."""
+    return replace(reducer, starts=reducer.starts | {name: pin_of(reducer.starts[name]) for name in PIN_NUMBERS & reducer.starts.keys()})
 
 
 def circles_off(what: str, radius: float, middles: Points, by: Points, d: int = 0) -> PartsOff:
