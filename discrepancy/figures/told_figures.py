@@ -36,11 +36,11 @@ def others_text(figures: Sequence[KeyFigure], after: Sequence[KeyFigure] = ()) -
     kinds = {(f.signal, f.name) for f in told}
     left = [f.name for f in furthest(figures) if (f.signal, f.name) not in kinds]
     named = f"{'; '.join(left[:MOST_NAMED])}{f'; and {len(left) - MOST_NAMED} more' if len(left) > MOST_NAMED else ''}"
-    which = f"{len(kinds)} kinds of figure (furthest off, or of a catalogue; left out are nearer ones: {named})" if left else f"all {len(kinds)} kinds of figure"
+    what = f"{len(kinds)} kinds of figure (furthest off, or of a catalogue; left out are nearer ones: {named})" if left else f"all {len(kinds)} kinds of figure"
     where = "each where it is furthest off"
     if after:
         where += f" before anything was added, and where it is furthest off with it if that is another condition and more than {STILL_OFF:g} times its noise"
-    return f"{which}, {where}; {len(figures)} figures in all"
+    return f"{what}, {where}; {len(figures)} figures in all"
 
 
 def drawn_text(told: Sequence[KeyFigure], after: Sequence[KeyFigure] = ()) -> str:

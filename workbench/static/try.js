@@ -302,8 +302,8 @@ export function show(root, context) {
     if (took !== null) told.dataset.ms = String(Math.round(took));
     clear(
       told,
-      `rms of the difference, of ${t.of}: ${number(t.rms[0], 3)} ${t.unit} → `,
-      h("b", {}, `${provisional ? "≈ " : ""}${number(t.rms[1], 3)} ${t.unit}`),
+      `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `,
+      h("b", {}, `${provisional ? "≈ " : ""}${number(t.rms[1], 3)} ${t.unit}`), ` of ${t.of}`,
       provisional ? h("span", { class: "fair" }, " first look, the exact number follows") : "",
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",
