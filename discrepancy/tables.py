@@ -18,7 +18,7 @@ from discrepancy.model_file import ModelFile
 from discrepancy.prediction.defined_samples import defined_at
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
-from discrepancy.scales import of_axis, of_estimate, of_signal
+from discrepancy.scales import Scale, of_axis, of_estimate, of_signal
 from discrepancy.verdict import Answer
 from discrepancy.words.as_told import tables_of as tables_in
 from discrepancy.words.as_told import told_name
@@ -121,8 +121,15 @@ def figure_rows(figures: Sequence[KeyFigure], after: Sequence[KeyFigure] = ()) -
         rows.append({
             "signal": f.signal, "condition": f.condition, "figure": f.name, "measured": scale.number(f.measured), "model": scale.number(f.model),
             "noise": scale.factor * f.noise, "unit": scale.unit, "off_in_noise": f.off, "runs": f.runs,
-        } | ({"with_effect": scale.number(after[k].model), "off_in_noise_with_effect": after[k].off} if after else {}))  # fmt: skip
+            "model_curve": curve_of(f, scale), "model_from": f.model_from,
+        } | ({"with_effect": scale.number(after[k].model), "off_in_noise_with_effect": after[k].off,
+              "with_effect_curve": curve_of(after[k], scale)} if after else {}))  # fmt: skip
     return rows_table("key_figures", rows, {})
+
+
+def curve_of(f: KeyFigure, scale: Scale) -> float:
+    """What the model's curve has by itself, without noise."""
+    return scale.number(f.model if f.model_curve is None else f.model_curve)
 
 
 def curve_tables(space: Workspace, predictions: Mapping[str, Sequence[Floats]], campaign: Campaign) -> list[Table]:

@@ -224,13 +224,13 @@ def test_of_an_effect_that_stands_alone_the_nearest_rival_and_what_confirms_it_a
     assert start == "nothing is left to separate: needle clearance stands alone" and run.result is None
     fits = diagnosed.diagnosis.fits
     worse = min(r.fit.chi2 for r in fits.rivals if r.name != "needle_clearance") - fits.members[0].fit.chi2
-    assert rest.startswith("nearest to it comes ") and f"which fits worse by {chi_text(worse)} in chi-square" in rest
+    assert rest.startswith("nearest of other effects comes ") and f"which fits worse by {chi_text(worse)} in chi-square" in rest
     # What is decided is not proposed, and the runs have the names of the campaign.
     at_20 = next(r.condition for r in wide.records if r.quantity == "lost_motion")
     assert f"the runs of lost_motion in {at_20} tell them apart already (they differ there by " in rest and "repeating" not in rest
     # What this rig cannot tell it does not promise.
     blind = replace(wide, rig=Rig({}, (1,), ("cage_speed",), (), 100.0, 1.0, 0.0, "EUR"))
-    assert "confirmed" not in proposal_for(diagnosed, blind).verdict and "nearest to it comes " in proposal_for(diagnosed, blind).verdict
+    assert "confirmed" not in proposal_for(diagnosed, blind).verdict and "nearest of other effects comes " in proposal_for(diagnosed, blind).verdict
 
 
 def test_what_is_computed_to_draw_a_diagnosis_is_kept_with_it(file, wide, diagnosed, tmp_path, monkeypatch):

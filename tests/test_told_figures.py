@@ -4,10 +4,13 @@ from dataclasses import replace
 
 from cli.screen import WIDTH, console
 from cli.show.comparison import show_figures
-from discrepancy.figures.key_figures import LOST_MOTION, STIFFNESS, KeyFigure
-from discrepancy.figures.told_figures import MOST, others_text, told_figures
+from discrepancy.figures.key_figures import LOST_MOTION, SPAN, STIFFNESS, KeyFigure
+from discrepancy.figures.told_figures import MOST, drawn_text, others_text, told_figures
 from discrepancy.model_file import load_model
+from discrepancy.page import changed_figures, whys
 from discrepancy.page.comparison import figures_section
+from discrepancy.tables import figure_rows
+from discrepancy.words import as_told
 
 ANY = KeyFigure("transmission_error", "50N.m", "order 1", "rad", 2.0, 1.0, 0.1, 2, True)
 # Nearest of all, and what one asks for.
@@ -49,3 +52,38 @@ def test_screen_page_and_workbench_have_one_number_of_digits(capsys):
     show_figures([f], console(WIDTH), load_model("RV20E-121"), True)
     shown = capsys.readouterr().out.split()
     assert all(text in shown for text in ("45.4394", "0.0091", "50.0000"))
+
+
+def test_a_kind_has_a_row_where_it_is_furthest_off_with_what_was_added(capsys):
+    """18.0 -> 0.2 stood there of one position, and 3.1 times the noise of the other nowhere."""
+    here, there, near = (replace(ANY, condition=place, measured=1.0 + 0.1 * off) for place, off in (("210deg", 18.0), ("90deg", 16.2), ("0deg", 5.0)))
+    after = [replace(f, model=f.measured - 0.1 * off) for f, off in ((here, 0.2), (there, -3.1), (near, 1.9))]
+    assert told_figures([here, there, near], after) == [here, there] and told_figures([here, there, near]) == [here]
+    show_figures([here, there, near], console(WIDTH), load_model("RV20E-121"), True, after, "pins")
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "18.0 -> 0.2" in shown and "16.2 -> 3.1" in shown and "5.0 -> 1.9" not in shown
+    says = "and where it is furthest off with it if that is another condition and more than 2 times its noise"
+    [section] = changed_figures.section(list(zip([here, there, near], after)), "")
+    assert says in shown and says in section.lead and [row[1] for row in section.tables[0].rows] == ["210deg", "90deg"]
+    # What is off by no more than that, or at the same condition, has no row of its own.
+    assert told_figures([here, there], [after[0], replace(after[1], model=there.measured - 0.19)]) == [here]
+    assert told_figures([here, there], [replace(after[0], model=here.measured - 0.9), after[1]]) == [here]
+
+
+def test_a_models_peak_to_peak_says_that_noise_is_drawn_on_its_curve(capsys):
+    """8.14 arcsec stood beside a curve of 6.00."""
+    arcsec = 4.84813681e-6
+    f = replace(ANY, name=SPAN, measured=10.06 * arcsec, model=8.14 * arcsec, noise=0.15 * arcsec, model_curve=6.0 * arcsec)
+    show_figures([f], console(WIDTH), load_model("RV20E-121"), True)
+    shown = " ".join(capsys.readouterr().out.split())
+    how = "its curve with the noise of the samples drawn on it, mean of 25 draws"
+    assert f"peak to peak, model: of {how}, for noise makes what is measured larger, too; peak to peak of the curve alone: 6.00 arcsec at 50N.m" in shown
+    assert how in figures_section([f], load_model("RV20E-121"), True)[0].lead
+    why = whys.of_key_figure(f).relation
+    assert how in why and "of the curve alone it is 6.00 arcsec" in why
+    [told] = as_told.figures([f])
+    assert (round(told["model_curve"], 3), told["model_from"]) == (6.0, how)
+    row = {column.name: column.values[0] for column in figure_rows([f], [replace(f, model_curve=7.9 * arcsec)]).columns}
+    assert row["model_from"] == how and (round(row["model_curve"], 3), round(row["with_effect_curve"], 3)) == (6.0, 7.9)
+    # Of a loop nothing is drawn.
+    assert drawn_text([LOST]) == "" and "curve alone" not in whys.of_key_figure(LOST).relation and as_told.figures([LOST])[0]["model_from"] == "its curve"

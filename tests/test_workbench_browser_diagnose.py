@@ -254,7 +254,7 @@ def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):
     run = {"run": "r", "condition": "c", "replicate": 1, "held_out": False, "mounting": "1", "samples": 3, "dots": True, "noise": 1, "zero": 0}
     places = {name: {"from": 0, "count": 3} for name in ("x", "measured", "predicted", "residual")}
     signal = {"signal": "transmission_error", "title": "transmission error", "unit": "arcsec", "held_out": True, "singles": [], "loop": False, "spectra": [],
-              "axis": {"name": "angle", "title": "angle"}, "errors": [{"ratio": 14.12, "held_out": False}, {"ratio": 13.96, "held_out": True}],
+              "axis": {"name": "angle", "title": "angle"}, "errors": [{"ratio": 14.12, "held_out": False, "runs": 10}, {"ratio": 13.96, "held_out": True, "runs": 1}],
               "runs": [run | places | {"ratio": 15.0}, run | places | {"ratio": 13.0, "run": "s"}]}  # fmt: skip
     result = {"model": "RV20E-121", "begun": 1, "signals": [signal], "places": [], "orders": {}, "figures": [], "doubts": [], "warnings": [], "cards": [],
               "calibrated": [], "title": "", "finding": "", "conditions": "", "nuisances": {}, "command": ""}  # fmt: skip
@@ -268,7 +268,7 @@ def test_under_look_buttons_and_cards_count_an_error_in_the_same_way(bench):
       for (let k = 0; k < 100 && !place.querySelector('#signals'); k++) await new Promise((done) => setTimeout(done, 50));
       return [...place.querySelectorAll('.chips button')].map((button) => button.textContent);
     }""")
-    assert told == ["transmission error 14.1×, held out 14.0×", "c 14.0×"]
+    assert told == ["transmission error 14.1× of 10 runs, held out 14.0× of 1 run", "c 14.0×"]
 
 
 def test_a_sample_aside_stretches_no_axis(bench):

@@ -25,6 +25,7 @@ def test_a_first_number_in_try_is_marked_until_the_exact_one_is_there(bench):
     page.locator("[data-parameter=thermal_expansion]").focus()
     page.keyboard.press("ArrowRight")
     page.locator("#followed", has_text="≈").get_by_text("first look, the exact number follows").wait_for()
+    page.locator("#followed", has_text=" of this run alone").wait_for()
     while not held:
         page.wait_for_timeout(100)
     held[0].continue_()

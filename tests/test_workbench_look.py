@@ -1,6 +1,7 @@
 """The workbench's server: curves and numbers of Look and Try.  No browser."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -92,6 +93,23 @@ def test_what_is_left_out_of_what_is_tried_is_said():
     assert taken_words(long, [whole, long, run("d", 900, "d")]) == "2 of 3 runs, one of each condition; of this one every 2nd sample (1,000 of 2,000 samples)"
     assert taken_words(run("t", 3001, turns=3.0), [whole]) == "of this one the first turn (1,000 of 3,001 samples)"
     assert taken_words(run("t", 9001, turns=3.0), [whole]) == "of this one the first turn, every 3rd sample (1,001 of 9,001 samples)"
+
+
+def test_an_error_in_try_says_of_which_runs_and_samples_it_is():
+    """0.971 of every other sample of one run, 0.916 of one run of each condition, fitted or held out, and 0.939 in Look stood without a word of it."""
+    from discrepancy.problem import Record
+    from workbench.thinned import looked_at, of_one, thinned
+
+    def run(name, held):
+        angle = np.linspace(0.0, 1.8 * np.pi, 1800)
+        return Record(name, "transmission_error", "rad", name[0], 1, np.zeros(1800), {"angle": angle}, {}, held_out=held)
+
+    runs = [run("a1", False), run("a2", False), run("b1", False), run("c1", True)]
+    shown = [thinned(runs[k]) for k in (0, 2, 3)]
+    assert looked_at(shown, runs) == "3 of 4 runs (2 fitted, 1 held out, together), 2,700 of their 5,400 samples"
+    assert of_one(shown[2], runs[3]) == "this run alone (held out), 900 of its 1,800 samples"
+    short = replace(runs[3], values=np.zeros(900), axes={"angle": runs[3].axes["angle"][:900]})
+    assert looked_at([short], [short]) == "1 of 1 run" and of_one(short, short) == "this run alone (held out)"
 
 
 def test_numbers_of_the_reducer_are_called_as_on_its_page_and_have_its_units(tmp_path):

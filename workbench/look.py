@@ -117,7 +117,7 @@ def signal(name: str, members: Sequence[Run], columns: Columns, ratios: dict[str
 
 def errors_of(name: str, rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     """Of a signal its error in times the noise as the table of a comparison has it, fitted runs before held-out ones."""
-    return [{"ratio": row["ratio"], "held_out": row["held_out"]} for row in rows if row["signal"] == name]
+    return [{"ratio": row["ratio"], "held_out": row["held_out"], "runs": row["runs"]} for row in rows if row["signal"] == name]
 
 
 def over_an_axis(run: Run) -> bool:

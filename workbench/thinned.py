@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.problem import Record
-from pages.words import ordinal
+from pages.words import counted, ordinal
 
 # Samples of the curve that follows the hand: more than a screen is wide make no picture better.
 FEW = 1200
@@ -31,6 +31,23 @@ def kept_of(record: Record) -> npt.NDArray[np.intp]:
         angle = np.abs(np.asarray(record.axes["angle"]) - record.axes["angle"][0])
         kept = np.flatnonzero(angle < 2.0 * math.pi) if angle.max() > 2.0 * math.pi else kept
     return kept[:: max(1, math.ceil(len(kept) / FEW))]
+
+
+def looked_at(runs: Sequence[Record], campaign: Sequence[Record]) -> str:
+    """Of which runs and samples an error of a signal is, of those that its ``campaign`` has of it."""
+    [signal] = {stream_of(run) for run in runs}
+    whole = {run.name: run for run in campaign if stream_of(run) == signal}
+    held = sum(run.held_out for run in runs)
+    kinds = "" if held in (0, len(runs)) else f" ({len(runs) - held} fitted, {held} held out, together)"
+    few, every = (sum(len(one) for one in samples) for samples in ([kept_of(whole[run.name]) for run in runs], [whole[run.name].values for run in runs]))
+    samples = f", {few:,} of their {every:,} samples" if few < every else ""
+    return f"{len(runs)} of {counted(len(whole), 'run')}{kinds}{samples}"
+
+
+def of_one(run: Record, whole: Record) -> str:
+    """The same of one run that is drawn."""
+    few, every = len(kept_of(whole)), len(whole.values)
+    return f"this run alone{' (held out)' if run.held_out else ''}{f', {few:,} of its {every:,} samples' if few < every else ''}"
 
 
 def taken_words(record: Record, records: Sequence[Record]) -> str:

@@ -30,7 +30,7 @@ from workbench.beside import Beside
 from workbench.folder import Folder
 from workbench.look import amplitudes_of
 from workbench.own_zero import ALIKE, as_in_look, at_own_zero, moved
-from workbench.thinned import taken_words, thinned
+from workbench.thinned import looked_at, of_one, taken_words, thinned
 
 # A slider reaches so many typical sizes to either side, where the bounds of the parameter are wider (assumed: what a bench meets).
 REACH = 5.0
@@ -174,7 +174,7 @@ def drawn(models: Sequence[Beside], run: str, values: Mapping[str, float], rough
         "unit": unit, "axis": axis, "loop": name == "torque", "stems": record.quantity == ORDERS, "title": amounts.signal_title(stream_of(record)),
         "condition": record.condition, "free": record.free_zero, "rms": [error_of(record, base) * factor, error_of(record, tried) * factor],
         "aside": list(record.far_off), "placed": beside_it.words(record, list(own)),
-        "taken": taken_words(run_of(beside_it.campaign, run), found.records),
+        "taken": taken_words(run_of(beside_it.campaign, run), found.records), "of": of_one(record, run_of(beside_it.campaign, run)),
         "look": as_in_look(error_of(record, in_common) * factor, error_of(record, base) * factor, unit, by) if in_look else "",
     }  # fmt: skip
     return words, np.array([x, *(factor * curve for curve in curves)])
@@ -190,7 +190,7 @@ def changes_of(beside: Beside, values: Mapping[str, float], in_look: bool) -> li
     calibrated = {**standing, **beside.calibrated(own)}
     cells: dict[str, list[tuple[float, float, float]]] = {}
     in_common: dict[str, dict[str, list[float]]] = {}
-    units: dict[str, str] = {}
+    looked: dict[str, list[Record]] = {}
     seen = set()
     for record in found.records:
         key = (stream_of(record), record.condition, record.mounting)
@@ -201,15 +201,17 @@ def changes_of(beside: Beside, values: Mapping[str, float], in_look: bool) -> li
         plain = found.one(record, standing, rough=roughly)
         base, tried = at_own_zero(record, plain, found.nuisances), own_curve(found, record, calibrated | own, roughly)
         in_common.setdefault(key[0], {}).setdefault("held out" if record.held_out else "fitted", []).append(error_of(record, plain))
-        units[key[0]] = record.unit
+        looked.setdefault(key[0], []).append(record)
         cells.setdefault(key[0], []).append((rms(tried - base), error_of(record, base), error_of(record, tried)))
     rows = []
     for signal, entries in cells.items():
         change, before, after = map(mean_of, zip(*entries))
         every = mean_of([error for errors in in_common[signal].values() for error in errors])
-        of_look = ", ".join(f"{kind} {amounts.text(mean_of(errors), units[signal], signal)}" for kind, errors in sorted(in_common[signal].items()))
-        shown = [amounts.text(v, units[signal], signal) for v in (change, before, after)]
+        unit = looked[signal][0].unit
+        of_look = ", ".join(f"{kind} {amounts.text(mean_of(errors), unit, signal)}" for kind, errors in sorted(in_common[signal].items()))
+        shown = [amounts.text(v, unit, signal) for v in (change, before, after)]
         rows.append({"signal": signal, "title": amounts.signal_title(signal), "change": shown[0], "before": shown[1], "after": shown[2],
+                     "of": looked_at(looked[signal], beside.campaign.records),
                      "better": after < 0.97 * before, "touched": change > 1e-3 * max(before, 1e-300),
                      "look": of_look if in_look and abs(every - before) > ALIKE * before else ""})  # fmt: skip
     return rows

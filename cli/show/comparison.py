@@ -15,7 +15,7 @@ from discrepancy.experiment.next_run import NextRun
 from discrepancy.extend import HELPED, Extension
 from discrepancy.figures.figure_digits import figure_texts, plain_text
 from discrepancy.figures.key_figures import KeyFigure
-from discrepancy.figures.told_figures import others_text, told_figures
+from discrepancy.figures.told_figures import drawn_text, others_text, told_figures
 from discrepancy.inference.chance import chance_number
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment
@@ -88,11 +88,12 @@ def show_comparison(comparison: Comparison) -> None:
 
 def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibrated: bool, after: Sequence[KeyFigure] = (), added: str = "",
                  of_chance: str = "") -> None:  # fmt: skip
-    """Key figures, a row for each kind with the condition where it is furthest off; the signal first that has the furthest.
+    """Key figures, a row for each kind with the condition where it is furthest off, and one where that is another ``after``; the signal first that has
+    the furthest.
 
     ``after``: the same with what was ``added`` to the model, if anything was; ``of_chance``: what chance makes of them.
     """
-    told = told_figures(figures)
+    told = told_figures(figures, after)
     if not told:
         return
     table = dense(f"key figures, measured against {file.in_words}" + (" as it was calibrated to this campaign" if calibrated else "")
@@ -105,8 +106,10 @@ def show_figures(figures: list[KeyFigure], out: Console, file: ModelFile, calibr
     out.print(table)
     for remark in dict.fromkeys(filter(None, (apart_from_remark(f.name)[1] for f in told))):
         out.print(remark)
-    if others := others_text(figures):
+    if others := others_text(figures, after):
         out.print(f"{others}: --json lists all")
+    if drawn := drawn_text(told, [more[id(f)] for f in told] if after else ()):
+        out.print(drawn)
     if of_chance:
         out.print(of_chance)
 

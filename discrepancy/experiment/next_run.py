@@ -195,7 +195,7 @@ def confirming(answer: Answer, campaign: Campaign, named: Refit) -> str:
     nearest = min(others, key=lambda rival: rival.fit.chi2)
     worse = nearest.fit.chi2 - named.fit.chi2
     how = f"fits worse by {chi_text(worse)} in chi-square" if worse > 0.0 else "fits as well and was turned down for what the diagnosis says of it"
-    said = f"nearest to it comes {effect_words(plainly(nearest))}, which {how}"
+    said = f"nearest of other effects comes {effect_words(plainly(nearest))}, which {how}"
     # Alike in weight: how likely each is by now is told already.
     result = weighed(answer, campaign, [rival_of(one, 1.0) for one in (named, nearest)])
     if not result.proposals:

@@ -35,6 +35,8 @@ DRAWS = 25
 # calibrates first is fitted before anything else is looked for.
 SOFTER, CLEARLY = 1.5, 5.0
 SPRINGS, FRICTION, PLAY = ("support_compliance",), ("stribeck_friction", "support_hysteresis", "drive_friction"), ("first_stage_play", "output_play")
+# What a model's figure is read from.
+CURVE = "its curve"
 # Orders higher than this share of what the samples resolve are not read.
 RESOLVED = 0.9
 
@@ -45,7 +47,7 @@ Reading = Callable[[Floats], dict[str, float]]
 @dataclass(frozen=True)
 class KeyFigure:
     """One figure of a signal at a condition in ``unit`` (SI): measured and of the model, ``noise`` the standard deviation of the first,
-    known from ``dof`` degrees of freedom (0: for sure)."""
+    known from ``dof`` degrees of freedom (0: for sure).  ``model_curve`` is that of the model's curve alone, where noise was drawn on it for ``model``."""
 
     signal: str
     condition: str
@@ -57,6 +59,12 @@ class KeyFigure:
     runs: int
     repeated: bool
     dof: int = 0
+    model_curve: float | None = None
+
+    @property
+    def model_from(self) -> str:
+        """What the model's number is read from."""
+        return CURVE if self.model_curve is None else f"{CURVE} with the noise of the samples drawn on it, mean of {DRAWS} draws"
 
     @property
     def off(self) -> float:
@@ -69,7 +77,7 @@ class KeyFigure:
         return "torsional_stiffness" if self.unit == "N.m/rad" else self.signal
 
     def as_json(self) -> dict[str, Any]:
-        return asdict(self) | {"off": self.off}
+        return asdict(self) | {"off": self.off, "model_from": self.model_from}
 
 
 def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping[str, Sequence[float]], rated: float) -> list[KeyFigure]:
@@ -95,9 +103,10 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
             by_samples = np.array([[d.get(name, np.nan) for d in read] for read in drawn])
             drawn_noise, between = float(np.nanstd(by_samples[0])), spread.get((signal, name), 0.0)
             noise, dof = (between, freedom[signal, name]) if between > drawn_noise else (drawn_noise, DRAWS - 1)
-            model = [r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)] if name in PLAIN else by_samples[1]
-            found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), float(np.nanmean(model)),
-                                   noise / np.sqrt(len(values)), len(values), (signal, name) in spread, dof))  # fmt: skip
+            curve = float(np.nanmean([r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)]))
+            model, alone = (curve, None) if name in PLAIN else (float(np.nanmean(by_samples[1])), curve)
+            found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), model,
+                                   noise / np.sqrt(len(values)), len(values), (signal, name) in spread, dof, alone))  # fmt: skip
     return found
 
 

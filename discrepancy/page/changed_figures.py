@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 from discrepancy.extend import Extension
 from discrepancy.figures.key_figures import KeyFigure
-from discrepancy.figures.told_figures import others_text, told_figures
+from discrepancy.figures.told_figures import drawn_text, others_text, told_figures
 from discrepancy.page import amounts, whys
 from discrepancy.page.comparison import figures_section
 from discrepancy.verdict import Answer
 from pages.content import Section, Table
-from pages.words import number
+from pages.words import capital, number
 
 
 def changed_figures(result: Extension) -> list[Section]:
@@ -30,14 +30,16 @@ def figures_of_answer(answer: Answer) -> list[Section]:
 
 
 def section(pairs: Sequence[tuple[KeyFigure, KeyFigure]], lead: str) -> list[Section]:
-    """Of many figures those that were furthest off before, all of them folded; nothing where none is read."""
-    before = [f for f, _ in pairs]
+    """Of many figures those that were furthest off before or are after, all of them folded; nothing where none is read."""
+    before, changed = [f for f, _ in pairs], [f for _, f in pairs]
     if not before:
         return []
-    after = {id(f): changed for f, changed in pairs}
-    tables = [table([(f, after[id(f)]) for f in told_figures(before)])]
-    if others := others_text(before):
-        lead += f" Shown are {others}, before anything was added."
+    after, told = {id(f): later for f, later in pairs}, told_figures(before, changed)
+    tables = [table([(f, after[id(f)]) for f in told])]
+    if drawn := drawn_text(told, [after[id(f)] for f in told]):
+        lead += f" {capital(drawn)}."
+    if others := others_text(before, changed):
+        lead += f" Shown are {others}."
         tables.append(table(pairs, f"All {len(before)} key figures"))
     return [Section("figures", "Key figures", lead, [], tables)]
 

@@ -6,7 +6,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS, Comparison, calibrated_numbers, digits_beside
 from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound, unsure_text
 from discrepancy.figures.key_figures import KeyFigure
-from discrepancy.figures.told_figures import others_text, told_figures
+from discrepancy.figures.told_figures import drawn_text, others_text, told_figures
 from discrepancy.inference.chance import chance
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
@@ -113,7 +113,8 @@ def cards(result: Comparison) -> list[Card]:
         Card(
             capital(place(row)),
             number(row["ratio"]),
-            f"{amounts.text(row['error'], row['unit'], row['signal'])}, noise {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
+            f"{amounts.text(row['error'], row['unit'], row['signal'])} over {counted(row['runs'], 'run')}, noise"
+            f" {amounts.text(row['noise_floor'], row['unit'], row['signal'])}",
             unit="times noise, all samples",
             tone=tone(row["ratio"], row["held_out"]),
             why=whys.of_error(result.diagnostician.space, row),
@@ -213,6 +214,8 @@ def figures_section(figures: list[KeyFigure], file: ModelFile, calibrated: bool,
     )
     if calibrated:
         lead += " The model's are those after its calibration to this campaign; rvwear hysteresis and bench give them without it."
+    if drawn := drawn_text(told_figures(figures)):
+        lead += f" {capital(drawn)}."
     if of_chance:
         lead += f" {capital(amounts.in_words(of_chance))}."
     if not (others := others_text(figures)):

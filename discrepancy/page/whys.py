@@ -47,8 +47,12 @@ def noise_from(space: Workspace, signal: str) -> str:
 
 def of_key_figure(f: KeyFigure) -> Why:
     noise = f"what its {f.runs} repetitions differ by, over the root of their number" if f.repeated else f"{DRAWS} draws of the noise of its samples"
+    alone = "" if f.model_curve is None else (
+        f"; the model's is of {f.model_from}, for noise makes what is measured larger, too: of the curve alone it is"
+        f" {amounts.text(f.model_curve, f.unit, f.told_as)}"
+    )
     return Why(
-        "read in one way from the measured curve and from the model at the same samples; their difference over its noise",
+        f"read in one way from the measured curve and from the model at the same samples; their difference over its noise{alone}",
         f"{counted(f.runs, 'run')} at {f.condition}; the noise is {noise}",
         f"{amounts.text(abs(f.measured - f.model), f.unit, f.told_as)} apart, {number(abs(f.off))} times {amounts.text(f.noise, f.unit, f.told_as)};"
         f" {CLEARLY:g} times and more is clear",

@@ -52,7 +52,7 @@ def row(entry: Mapping[str, Any], signal: str, unit: str, keys: Sequence[str]) -
 
 
 def figures(found: Sequence[KeyFigure]) -> list[dict[str, Any]]:
-    return [row(f.as_json(), f.told_as, f.unit, ("measured", "model", "noise")) for f in found]
+    return [row(f.as_json(), f.told_as, f.unit, ("measured", "model", "noise", "model_curve")) for f in found]
 
 
 def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:

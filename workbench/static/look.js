@@ -15,6 +15,7 @@ const MOST_DRAWN = 4;
 
 // An error in times its noise: root mean square of all samples over that of the noise, as the cards and ``rvwear compare`` have it.
 const times = (ratio) => `${number(ratio, 3)}×`;
+const ofRuns = (e) => (e.runs ? ` of ${e.runs} run${e.runs === 1 ? "" : "s"}` : "");
 
 export function show(root, context) {
   let result = null,
@@ -163,7 +164,7 @@ export function show(root, context) {
                 root.querySelector("#curves")?.scrollIntoView({ block: "nearest" });
               },
             },
-            `${s.title} ${(s.errors ?? []).map((e) => (e.held_out ? "held out " : "") + times(e.ratio)).join(", ")}`,
+            `${s.title} ${(s.errors ?? []).map((e) => (e.held_out ? "held out " : "") + times(e.ratio) + ofRuns(e)).join(", ")}`,
           ),
         ),
     );

@@ -303,7 +303,7 @@ export function show(root, context) {
     clear(
       told,
       `rms of the difference ${number(t.rms[0], 3)} ${t.unit} → `,
-      h("b", {}, `${provisional ? "≈ " : ""}${number(t.rms[1], 3)} ${t.unit}`),
+      h("b", {}, `${provisional ? "≈ " : ""}${number(t.rms[1], 3)} ${t.unit}`), ` of ${t.of}`,
       provisional ? h("span", { class: "fair" }, " first look, the exact number follows") : "",
       ` · ${summary()}`,
       kept ? ` · A: ${keptName}` : "",

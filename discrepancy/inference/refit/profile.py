@@ -65,4 +65,11 @@ def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndar
     x[others] += rest.step(x[others], normal, rest.scale * gradient)
     with near(fit.values):
         residual = space.residual(box.named(x))
-    return min(first, float(residual @ residual) + box.prior_cost(x))
+    least = min(first, float(residual @ residual) + box.prior_cost(x))
+    if least - fit.chi2 <= fit.normal[k, k] * (value - best[k]) ** 2:
+        return least
+    # A kink lies between (a proud pin that is not between two is as high as it is): where the others follow it is worse than where they stay.
+    x[others] = best[others]
+    with near(fit.values):
+        residual = space.residual(box.named(x))
+    return min(least, float(residual @ residual) + box.prior_cost(x))
