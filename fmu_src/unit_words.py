@@ -93,8 +93,8 @@ def unit_of(text: str) -> tuple[str, str] | None:
     return KNOWN.get(word) or (LOWER.get(word.lower()) if len(word) >= LEAST_LOWER else None)
 
 
-# A torque's unit in a text of ours; in a name (50N.m), a head ([N.m]) or quotes it stands as in the file, or as it is typed.
-TORQUE_UNIT = re.compile(r"(?<![\w.\[\"'`])((?:k|m|da)?N)[.·]([cm]?m)(?:[.·](arcmin|s)\b)?(?![\w\]\"'`])")
+# A torque's unit in a text of ours; in a name (50N.m), a head ([N.m]), quotes or behind an option's = it stands as in the file, or as it is typed.
+TORQUE_UNIT = re.compile(r"(?<![\w.\[\"'`=])((?:k|m|da)?N)[.·]([cm]?m)(?:[.·](arcmin|s)\b)?(?![\w\]\"'`])")
 
 
 def unit_on_screen(text: str) -> str:

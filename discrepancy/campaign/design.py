@@ -101,7 +101,9 @@ class Design:
     def coupled_factors(self) -> list[tuple[str, str]]:
         """Pairs of factors that always change together over the conditions."""
         names = ("speed", "load", "temperature", "hours")
-        rows = [self.campaign.conditions[c].factors for c in dict.fromkeys(r.condition for r in self.records)]
+        # Records that were made by a program may name conditions that no table states.
+        known, own = self.campaign.conditions, {r.condition: r.factors for r in self.records}
+        rows = [known[name].factors if name in known else factors for name, factors in own.items()]
         found = []
         for i, a in enumerate(names):
             for b in names[i + 1 :]:
