@@ -53,7 +53,8 @@ def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, t
     # A view that was never opened cannot be had: nothing is thrown, and what is seen stays.
     page.click("#tab-try")
     page.locator("#tab-in[aria-selected=true]").wait_for()
-    assert gone.is_visible() and page.locator("#work").is_hidden() and page.url.endswith("#in")
+    page.wait_for_function("location.hash === '#in'")
+    assert gone.is_visible() and page.locator("#work").is_hidden()
     bench.start()
     page.goto(bench.address)
     page.get_by_text("2 runs in 2 files, 1 condition").wait_for()

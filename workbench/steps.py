@@ -182,7 +182,7 @@ def next_step(folder: Folder, given: dict[str, Any], jobs: int, place: Path) -> 
     best = run.result.proposals[:12] if run.result else ()
     proposals = [{"experiment": with_titles(p.experiment), "cost": p.cost, "least": p.least, "mean": p.score} for p in best]
     write_json(place / "result.json", {
-        "verdict": on_page(with_titles(run.verdict)), "rivals": run.rivals, "asked": asked, "cells": cells, "proposals": proposals,
+        "verdict": [on_page(with_titles(line)) for line in run.lines], "rivals": run.rivals, "asked": asked, "cells": cells, "proposals": proposals,
         "stakes": {with_titles(where): at_stake for where, at_stake in run.stakes().items()}, "cost_unit": run.cost_unit,
         "page": page_data(page_of(run)), "command": command(folder, given, "next"),
     })  # fmt: skip

@@ -39,8 +39,8 @@ def section(answer: Answer) -> Section:
     figures = [figure(k, p, told_name(p.name, tables_of(answer.model)), told.get(p.name)) for k, p in enumerate(answer.profiles[best.name])]
     lead = (
         f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
-        " follow. Grey is the parabola that the interval stated is of, and the line is where this ends: it lies higher the fewer degrees of freedom tell the"
-        " noise and the more the interval is widened. A profile that leaves the parabola, flattens or has a second valley says that the interval is too simple."
+        " follow. Dotted is the parabola that the interval stated is of, the band this interval, and the line where it ends: it lies higher the fewer"
+        " degrees of freedom tell the noise and the more the interval is widened. A profile that leaves the parabola, flattens or has a second valley says that the interval is too simple."
     )
     return Section("profiles", "How well each parameter is known", lead if figures else "No parameter has an interval.", figures)
 
@@ -110,10 +110,13 @@ def figure(place: int, p: Profile, name: str, told: Mapping[str, Any] | None = N
     fine = np.linspace(float(p.values.min()), float(p.values.max()), 61)
     level, why = limit_of(p, told) if told else (LIMIT, "")
     ends = scale.factor * np.array(relied_on(told)) + scale.offset if told else np.array([])
-    parabola: list[Any] = look.short(((fine - best) / width) ** 2)
+    # An interval that is wider than the profile was followed is drawn to its ends, too.
+    reach = [*p.values, *(relied_on(told) if told else ())]
+    wide = np.linspace(float(min(reach)), float(max(reach)), 61)
+    parabola: list[Any] = look.short(((wide - best) / width) ** 2)
     unit = pretty(scale.unit)
     data = [
-        look.line(look.short(scale.factor * fine + scale.offset, 7), parabola, look.QUIET, 1.2, "dot", name="parabola"),
+        look.line(look.short(scale.factor * wide + scale.offset, 7), parabola, look.QUIET, 1.2, "dot", name="parabola"),
         look.line(look.short(scale.factor * fine + scale.offset, 7), look.short(between(p, best, fine)), look.NOW, 2.0, name="profile"),
         look.line(look.short(x, 7), look.short(p.chi2), look.NOW, 2.0, mode="markers", name="computed"),
     ]

@@ -29,7 +29,14 @@ export function nextPart(bag) {
   const price = next?.cost_unit ? `price [${next.cost_unit}]` : "price";
   const sheet = next
     ? [
-        h("p", { class: "lead" }, next.verdict),
+        // A clause a line; what an earlier version kept is one.
+        Array.isArray(next.verdict) && next.verdict.length > 1
+          ? h(
+              "ul",
+              { class: "lead" },
+              next.verdict.map((line) => h("li", {}, line)),
+            )
+          : h("p", { class: "lead" }, next.verdict),
         next.proposals.length
           ? h(
               "div",

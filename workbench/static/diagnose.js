@@ -1,7 +1,7 @@
 // Diagnose: which effect is missing, why, what else it might be, what to measure next; add it, see the error fall, build the units.
 
 import { addPart, ladder, nextPart } from "./better.js";
-import { clear, command, duration, h, note, redraw, why, words } from "./dom.js";
+import { clear, command, duration, effectName, h, note, redraw, why } from "./dom.js";
 import { doubtsBefore } from "./doubts.js";
 import { exported, exportMenu } from "./export.js";
 import { get } from "./net.js";
@@ -173,7 +173,7 @@ export function show(root, context) {
     h(
       "div",
       { style: { "margin-top": "8px" } },
-      h("h3", {}, words(e.name) + (e.place && !answer.headline.includes(`(${e.place})`) ? ` (${e.place})` : "")),
+      h("h3", {}, effectName(e.name) + (e.place && !answer.headline.includes(`(${e.place})`) ? ` (${e.place})` : "")),
       e.parameters.map((p) =>
         h(
           "div",

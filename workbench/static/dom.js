@@ -175,11 +175,11 @@ export const unitShown = (unit) => unit.replaceAll("N.m", "N m");
 
 export const words = (text) => String(text).replaceAll("_", " ");
 
-// An effect in one of its forms: ``raceway_wear.inner`` as "raceway wear (inner)".
+// An effect in one of its forms: ``raceway_wear.inner`` as "raceway wear (inner)"; lobes are those of a disc, what a crank has is an eccentric.
 export const effectName = (name) =>
   name
     .split(" + ")
-    .map((one) => words(one).replace(/\.(.+)$/, " ($1)"))
+    .map((one) => words(one).replace("crank lobe", "crank eccentric").replace(/\.(.+)$/, " ($1)"))
     .join(" + ");
 
 export function duration(seconds) {
