@@ -40,7 +40,8 @@ def section(answer: Answer) -> Section:
     lead = (
         f"How much worse the fit of {' + '.join(effect_title(c.name) for c in best.candidates)} becomes as one parameter is moved and all others"
         " follow. Dotted is the parabola that the interval stated is of, the band this interval, and the line where it ends: it lies higher the fewer"
-        " degrees of freedom tell the noise and the more the interval is widened. A profile that leaves the parabola, flattens or has a second valley says that the interval is too simple."
+        " degrees of freedom tell the noise and the more the interval is widened. A profile that leaves the parabola, flattens or has a second valley"
+        " says that the interval is too simple."
     )
     return Section("profiles", "How well each parameter is known", lead if figures else "No parameter has an interval.", figures)
 
