@@ -42,11 +42,6 @@ def pytest_configure(config):
     config.cpu_before = sum(os.times()[:4])
 
 
-def pytest_xdist_auto_num_workers(config):
-    """One more than there are cores: a sixth of their time tests wait for browsers, servers and other processes."""
-    return len(os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count() or 1)) + 1
-
-
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     """CPU [s] since the report before: setup, test or teardown, with what they made for others."""
