@@ -7,7 +7,7 @@ from typing import Any
 from discrepancy.compare import CONSPICUOUS
 from discrepancy.model_file import SignalEntry
 from discrepancy.words.sample_errors import furthest_off
-from fmu_src.effect_words import effect_words
+from fmu_src.effect_words import effect_title
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,7 @@ class Step:
     @property
     def label(self) -> str:
         """``sensor gain (input torque) + drag``"""
-        parted = (effect_words(name).partition(".") for name in self.effects)
-        return " + ".join(effect + (f" ({form})" if form else "") for effect, _, form in parted)
+        return " + ".join(map(effect_title, self.effects))
 
     @property
     def left(self) -> dict[str, float]:

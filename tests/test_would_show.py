@@ -10,7 +10,7 @@ from cli.screen import WIDTH, console
 from cli.show.would_show import show_would_show
 from discrepancy.campaign.check import check_campaign
 from discrepancy.campaign.design import Design
-from discrepancy.campaign.findings import FEW_LEVELS, LIMITING, WARNING, Finding, shows_less
+from discrepancy.campaign.findings import WARNING, Finding, shows_less
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.screening.visible import NINETY_FIVE, Visible
@@ -84,9 +84,9 @@ def test_what_would_have_been_seen_is_seen_and_much_less_is_not(clean, name):
 
 
 def test_a_sentence_counts_what_was_seen_and_names_what_was_not():
-    seen = Visible("drag", "Drag", "seal_torque", "N.m", 0.2, 0.01)
-    waves = [Visible("pin_seats.two_waves", "Seats", name, "m/N", 1e-9, 2e-9) for name in ("pin_seat_cos_2", "pin_seat_sin_2")]
-    nowhere = Visible("race_spall.inner_race", "Spall", "spall_depth", "m", 5e-6, math.inf, at_best=5e-7)
+    seen = Visible("drag", "seal_torque", "N.m", 0.2, 0.01)
+    waves = [Visible("pin_seats.two_waves", name, "m/N", 1e-9, 2e-9) for name in ("pin_seat_cos_2", "pin_seat_sin_2")]
+    nowhere = Visible("race_spall.inner_race", "spall_depth", "m", 5e-6, math.inf, at_best=5e-7)
     found = WouldShow([nowhere, *waves, seen], ["thermal_expansion.heating"], [])
     assert found.sentence == (
         "of 3 effects that change something here, 1 would have been seen at its usual size; not, or only where they are larger: race spall (inner race),"
@@ -113,7 +113,7 @@ def test_forms_stand_behind_their_effect():
 
 
 def test_screen_and_page_say_what_the_runs_cannot_show(capsys):
-    nowhere = Visible("race_spall.inner_race", "Spall", "spall_depth", "m", 5e-6, math.inf, at_best=5e-7)
+    nowhere = Visible("race_spall.inner_race", "spall_depth", "m", 5e-6, math.inf, at_best=5e-7)
     lacking = Finding(WARNING, "one direction", "transmission_error: only one direction: one-sided wear does not show", 'measure with direction = "reverse" too')
     found = WouldShow([nowhere], ["thermal_expansion.heating"], [lacking])
     show_would_show(found, console(WIDTH))
@@ -131,4 +131,5 @@ def test_what_limits_a_design_is_told_and_what_does_not_is_not():
     campaign = load_campaign("examples/hidden_effect/campaign")
     told = {f.code for f in shows_less(Design(campaign))}
     assert told <= {f.code for f in check_campaign(campaign).findings}
-    assert all(code in LIMITING or code.startswith(FEW_LEVELS) for code in told)
+    limiting = {"one direction", "one mounting", "coupled factors", "record too short", "sampling too coarse", "means not used"}
+    assert all(code in limiting or code.startswith("few levels of") for code in told)

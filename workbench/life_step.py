@@ -1,6 +1,5 @@
 """A life on the page: its curves as they grow, its report at the end; paused and gone on with like ``rvwear life --resume``."""
 
-import math
 import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_src.faults import InputFault
 from fmu_src.file_name import file_name
 from fmu_src.held_file import held
+from fmu_src.units import conversion
 from studies.figure_units import HELD_IN_LIVES, OVER_TURN, RUNNING, WHAT_IS_OVER_TURN
 from workbench.folder import Folder
 from workbench.form import SPEED, exactly, in_unit, number
@@ -106,7 +106,7 @@ def settings_of(given: dict[str, Any]) -> list[str]:
 def duty_words(reducer: "Reducer", given: dict[str, Any]) -> str:
     """Torque and speed that a life runs at, of the form or as the file has them."""
     torque = positive(given, "torque") or abs(reducer.starts["load_torque"])
-    speed = positive(given, "speed", SPEED) or abs(reducer.starts["input_speed"]) * 30.0 / math.pi
+    speed = positive(given, "speed", SPEED) or abs(reducer.starts["input_speed"]) * conversion("rad/s", SPEED)[0]
     return f"{torque:,.4g} N m on the output, {speed:,.4g} {SPEED} of the sun"
 
 

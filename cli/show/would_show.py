@@ -4,7 +4,6 @@ from rich.console import Console
 
 from cli.screen import dense
 from discrepancy.words.would_show import HEAD, WouldShow, rows
-from fmu_src.effect_words import effects_words
 
 # Rows on the screen: the hardest to see.
 LONGEST = 12
@@ -23,12 +22,8 @@ def show_would_show(found: WouldShow, out: Console) -> None:
         out.print(table)
         if len(hard) > LONGEST:
             out.print(f"and {len(hard) - LONGEST} more: --json lists all")
-    if found.easy:
-        out.print(f"seen at a tenth of its usual size: {effects_words(found.easy)}")
-    if found.never:
-        out.print(f"not seen at any size that a reducer has, in all their numbers: {effects_words(found.never)}")
-    if found.silent:
-        out.print(f"change nothing here, whatever their size: {effects_words(found.silent)}")
+    for text in found.named:
+        out.print(text)
     if found.lacking:
         out.print("what these runs cannot show, and what would")
         for finding in found.lacking:

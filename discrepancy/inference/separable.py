@@ -21,8 +21,8 @@ from scipy.special import ndtr
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.screening.screen import Block, Columns, cone_statistic
-from discrepancy.problem import Candidate, Parameter
+from discrepancy.inference.screening.screen import Block, Columns, cone_statistic, limits
+from discrepancy.problem import Candidate
 from fmu_src.arrays import Floats
 
 STRENGTH = 10.0
@@ -94,11 +94,6 @@ def separations(space: Workspace, candidates: Sequence[Candidate], columns: Colu
                     near[k] = min(near.get(k, np.inf), float(d))
                 found.append(Pair(name, rival, min(near.values()), float(np.median(list(near.values())))))
     return sorted(found, key=lambda p: (p.typical, p.least))
-
-
-def limits(p: Parameter) -> tuple[float, float]:
-    """Largest amplitude below and above ``off``, in scales."""
-    return max(p.off - p.lower, 0.0) / p.scale, max(p.upper - p.off, 0.0) / p.scale
 
 
 def remaining(targets: Floats, sizes: Floats, unit: Floats, ranges: Floats, seen: np.ndarray, blocks: Sequence[Block]) -> Floats:

@@ -2,7 +2,6 @@
 
 from discrepancy.page import amounts
 from discrepancy.words.would_show import HEAD, WouldShow, rows
-from fmu_src.effect_words import effects_words
 from pages.content import Section, Table
 from pages.words import capital
 
@@ -13,12 +12,7 @@ EASIER = 0.5
 def section(found: WouldShow) -> Section:
     """From which size on effects would have been seen, and what the runs cannot show whatever it is."""
     lead = "From which size on each effect is seen in 95 of 100 campaigns like this one, beside the size that it usually has."
-    if found.easy:
-        lead += f" Seen at a tenth of its usual size: {effects_words(found.easy)}."
-    if found.never:
-        lead += f" Not seen at any size that a reducer has, in all their numbers: {effects_words(found.never)}."
-    if found.silent:
-        lead += f" Changing nothing here, whatever their size: {effects_words(found.silent)}."
+    lead += "".join(f" {capital(text)}." for text in found.named)
     tables = []
     hard, easier = rows([v for v in found.hard if not v.times <= EASIER]), rows([v for v in found.hard if v.times <= EASIER])
     if hard:
@@ -34,4 +28,4 @@ def section(found: WouldShow) -> Section:
 def plain(text: str) -> str:
     """A finding with the words of the quantities that it begins with."""
     quantities, colon, rest = text.partition(":")
-    return quantities.replace("_", " ") + colon + rest
+    return amounts.signal_title(quantities) + colon + rest

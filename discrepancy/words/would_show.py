@@ -76,6 +76,15 @@ class WouldShow:
         seen = f"of {count} effects that change something here, {left} would have been seen at {'its' if left == 1 else 'their'} usual size"
         return f"{seen}; not, or only where they are larger: {names}"
 
+    @property
+    def named(self) -> list[str]:
+        """What is seen easily, never, and changes nothing, each as a sentence."""
+        parts = (
+            ("seen at a tenth of its usual size", self.easy), ("not seen at any size that a reducer has, in all their numbers", self.never),
+            ("change nothing here, whatever their size", self.silent),
+        )  # fmt: skip
+        return [f"{what}: {effects_words(names)}" for what, names in parts if names]
+
     def as_json(self) -> dict[str, Any]:
         return {
             "sentence": self.sentence, "seen_from": [entry(v) for v in self.found], "changes_nothing": self.silent,
@@ -116,7 +125,7 @@ def rows(found: Sequence[Visible]) -> list[list[str]]:
 def entry(v: Visible) -> dict[str, Any]:
     """The same as JSON; null where no size would have been seen."""
     scale = scale_of(v)
-    told = {key: scale.number(size) if math.isfinite(size) else None for key, size in (("size", v.size), ("at_best", v.at_best), ("usual", v.usual))}
     si = {key: size if math.isfinite(size) else None for key, size in (("size", v.size), ("at_best", v.at_best), ("usual", v.usual))}
+    told = {key: None if size is None else scale.number(size) for key, size in si.items()}
     return {"effect": v.candidate, "parameter": effect_name(v.candidate.partition(".")[0], v.parameter), **told, "unit": scale.unit, "or_less": v.or_less,
             "si": si | {"unit": v.unit}}  # fmt: skip

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
-from scipy.special import fdtrc, fdtri
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.screening.tail import needed_for, tail
 from discrepancy.problem import Candidate, Parameter
 from fmu_src.arrays import Floats
 
@@ -151,7 +151,17 @@ def _reach(candidate: Candidate, block: Floats) -> float:
 
 def reach(p: Parameter, column: Floats) -> float:
     """Size, in noise units, of what an amplitude does at the further of its bounds."""
-    return float(np.linalg.norm(column)) * max(p.upper - p.off, p.off - p.lower) / p.scale
+    return float(np.linalg.norm(column)) * max(limits(p))
+
+
+def limits(p: Parameter) -> tuple[float, float]:
+    """Largest amplitude below and above ``off``, in scales."""
+    return max(p.off - p.lower, 0.0) / p.scale, max(p.upper - p.off, 0.0) / p.scale
+
+
+def known_before(candidate: Candidate) -> list[float]:
+    """What is known beforehand of each amplitude, as chi-square per scale squared."""
+    return [0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in candidate.amplitudes]
 
 
 def _step(p: Parameter, size: float) -> float:
@@ -260,7 +270,7 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         if candidate.name in exclude:
             continue
         # An amplitude that is known beforehand to be small gains less.
-        known = gram[own, own] + np.diag([0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in candidate.amplitudes])
+        known = gram[own, own] + np.diag(known_before(candidate))
         statistic, amplitude = cone_statistic(everything[:, own], known, block.signs)
         shares = {c: float(np.trace(np.linalg.pinv(known, rcond=1e-9, hermitian=True) @ g[own, own])) for c, g in grams.items()}
         entry = results.setdefault(block.candidate, _Tested(np.zeros(draws + 1)))
@@ -268,7 +278,8 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         entry.starts.append((float(statistic[0]), index, amplitude[0]))
         entry.width = max(entry.width, block.columns.stop - block.columns.start)
         entry.dof = min(entry.dof, effective_dof(space, shares))
-    singles = {k: _tail(float(e.sup[0]), np.sort(e.sup[1:]), e.width, e.dof) for k, e in results.items()}
+    sorted_draws = {k: np.sort(e.sup[1:]) for k, e in results.items()}
+    singles = {k: tail(float(e.sup[0]), sorted_draws[k], e.width, e.dof) for k, e in results.items()}
     least = np.full(draws, 1.0)
     for e in results.values():
         sims = e.sup[1:]
@@ -289,7 +300,7 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
         own, amplitude = columns.blocks[starts[0][1]].columns, starts[0][2]
         whole = float(np.sum((columns.values[:, own] @ amplitude) ** 2))
         left = float(amplitude @ gram[own, own] @ amplitude) / whole if whole > 0.0 else 1.0
-        needed = _needed(level / effective, np.sort(e.sup[1:]), e.width, e.dof)
+        needed = needed_for(level / effective, sorted_draws[k], e.width, e.dof)
         scores.append(Score(candidates[k].name, float(e.sup[0]), p, adjusted, made[0], second, starts[0][1], left, needed))
     scores.sort(key=lambda s: (-s.statistic))
     return Screen(scores, columns.blocks)
@@ -311,27 +322,6 @@ def bounded_gain(columns: Columns, fit: Fit, score: Score, amplitudes: Sequence[
     free = np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ slope
     inside = np.clip(free, [(p.lower - p.off) / p.scale for p in amplitudes], [(p.upper - p.off) / p.scale for p in amplitudes])
     return float(2.0 * inside @ slope - inside @ gram @ inside), free
-
-
-def _tail(value: float, sims: Floats, width: int, dof: float) -> float:
-    """Probability under the null: counted, beyond the 99th percentile continued with the law of F."""
-    draws = sims.size
-    bend = sims[int(0.99 * draws)]
-    if value <= bend or bend <= 0:
-        return float((draws - np.searchsorted(sims, value) + 1) / (draws + 1))
-    reference = fdtrc(width, dof, bend / width)
-    return float(0.01 * fdtrc(width, dof, value / width) / max(reference, 1e-300))
-
-
-def _needed(p: float, sims: Floats, width: int, dof: float) -> float:
-    """Value whose ``_tail`` is ``p``; infinite where draws give none."""
-    bend = float(sims[int(0.99 * sims.size)])
-    if p >= 0.01:
-        return float(np.quantile(sims, 1.0 - min(p, 1.0)))
-    if bend <= 0.0:
-        return math.inf
-    reference = max(fdtrc(width, dof, bend / width), 1e-300)
-    return float(width * fdtri(width, dof, 1.0 - p * reference / 0.01))
 
 
 def _start(candidate: Candidate, block: Block, amplitude: Floats) -> dict[str, float]:

@@ -18,7 +18,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.screening.screen import SMALL, Block, Columns, cone_statistic
+from discrepancy.inference.screening.screen import SMALL, Block, Columns, cone_statistic, known_before, limits
 from discrepancy.problem import BASE, Candidate, Parameter
 from fmu_src.arrays import Floats
 
@@ -44,7 +44,6 @@ class Visible:
     ``at_best``: where the shapes show it best, of those that are not seen everywhere."""
 
     candidate: str
-    title: str
     parameter: str
     unit: str
     usual: float
@@ -60,11 +59,11 @@ class Visible:
 
 @dataclass(frozen=True)
 class _Own:
-    """One candidate: its blocks with their columns (N, m), and ``projected``: the same with calibrations taken out."""
+    """One candidate: its blocks, the products U'MU of each, and MU of all candidates (N, m)."""
 
     candidate: Candidate
     blocks: Sequence[Block]
-    columns: Floats
+    grams: Sequence[Floats]
     projected: Floats
     needed: float
 
@@ -79,13 +78,9 @@ class _Own:
 
     def taken_up(self, change: Floats) -> float:
         """t of a whitened change (N,)."""
-        scores, start, best = change @ self.projected, 0, 0.0
-        for b in self.blocks:
-            own = slice(start, start + b.columns.stop - b.columns.start)
-            start = own.stop
-            gram = self.columns[:, own].T @ self.projected[:, own]
-            known = np.diag([0.0 if p.prior is None else (p.scale / p.prior) ** 2 for p in self.candidate.amplitudes])
-            best = max(best, float(cone_statistic(scores[None, own], 0.5 * (gram + gram.T) + known, b.signs)[0][0]))
+        known, best = np.diag(known_before(self.candidate)), 0.0
+        for b, gram in zip(self.blocks, self.grams):
+            best = max(best, float(cone_statistic(change[None] @ self.projected[:, b.columns], gram + known, b.signs)[0][0]))
         return math.sqrt(best)
 
 
@@ -100,8 +95,8 @@ class _Place:
 
     @property
     def reach(self) -> float:
-        p = self.amplitude
-        return min((p.upper - p.off if self.side > 0 else p.off - p.lower) / p.scale, MOST_TIMES)
+        below, above = limits(self.amplitude)
+        return min(above if self.side > 0 else below, MOST_TIMES)
 
 
 def visible(space: Workspace, candidates: Sequence[Candidate], columns: Columns, needed: Mapping[str, float]) -> list[Visible]:
@@ -111,8 +106,8 @@ def visible(space: Workspace, candidates: Sequence[Candidate], columns: Columns,
 
     def of_candidate(k: int) -> list[Visible]:
         blocks = [b for b in columns.blocks if b.candidate == k]
-        which = np.concatenate([np.arange(b.columns.start, b.columns.stop) for b in blocks])
-        own = _Own(candidates[k], blocks, columns.values[:, which], projected[:, which], needed[candidates[k].name])
+        products = [columns.values[:, b.columns].T @ projected[:, b.columns] for b in blocks]
+        own = _Own(candidates[k], blocks, [0.5 * (gram + gram.T) for gram in products], projected, needed[candidates[k].name])
         return [seen_from(space, own, j) for j in range(len(candidates[k].amplitudes))]
 
     shown = {b.candidate for b in columns.blocks}
@@ -133,22 +128,16 @@ def seen_from(space: Workspace, own: _Own, j: int) -> Visible:
     worst = within(where[-1]) if where else math.inf
     at_best = within(where[0]) if math.isinf(worst) and len(where) > 1 else math.inf
     or_less = not own.straight and worst <= OR_LESS
-    return Visible(own.candidate.name, own.candidate.title, p.name, p.unit, p.scale, p.scale * worst, or_less, p.scale * at_best)
+    return Visible(own.candidate.name, p.name, p.unit, p.scale, p.scale * worst, or_less, p.scale * at_best)
 
 
 def places(own: _Own, j: int) -> list[_Place]:
     """Where the screening looked at the ``j``-th amplitude; without places where calibrations leave nothing of it."""
-    p, start, found = own.candidate.amplitudes[j], 0, []
-    slopes: list[tuple[Block, float]] = []
-    for b in own.blocks:
-        k = start + j
-        start += b.columns.stop - b.columns.start
-        square = float(own.columns[:, k] @ own.projected[:, k])
-        known = 0.0 if p.prior is None else (p.scale / p.prior) ** 2
-        slopes.append((b, square / math.sqrt(square + known) if square > 0.0 else 0.0))
+    p, known, found = own.candidate.amplitudes[j], known_before(own.candidate)[j], []
+    slopes = [(b, gram[j, j] / math.sqrt(gram[j, j] + known)) for b, gram in zip(own.blocks, own.grams) if gram[j, j] > 0.0]
     for shape in [dict(one) for one in dict.fromkeys(tuple(b.shape.items()) for b in own.blocks)]:
         for side in (p.sign,) if p.sign else (1, -1):
-            here = [(abs(b.size), slope) for b, slope in slopes if b.shape == shape and b.signs[j] in (0, side) and slope > 0.0]
+            here = [(abs(b.size), float(slope)) for b, slope in slopes if b.shape == shape and b.signs[j] in (0, side)]
             if here:
                 found.append(_Place(p, shape, side, max(here)[1]))
     return found
