@@ -13,7 +13,8 @@ from fmu_src.strict_file import Strict
 from fmu_src.table import Table
 from fmu_src.variables import SETTABLE, Variable
 from orchestrator.scenario import ScenarioFile
-from reducers.reducer import Counts, Entry, Head, every_table
+from reducers.entry import Entry
+from reducers.reducer import Counts, Head, every_table
 from studies.duty import DutyFile
 from studies.ensemble.ensemble_file import Content as EnsembleContent
 

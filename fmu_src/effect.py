@@ -22,7 +22,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from fmu_src.effect_check import OWN, is_name
+from fmu_src.effect_check import is_name
+from fmu_src.effect_finding import OWN
 from fmu_src.source_hash import user_effect_files
 from fmu_src.variables import Variable
 

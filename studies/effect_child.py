@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 from fmu_src.child_process import command_of
-from fmu_src.effect_check import Finding, all_sound
+from fmu_src.effect_check import all_sound
+from fmu_src.effect_finding import Finding
 from fmu_src.source_hash import ROOT, USER_EFFECTS
 
 PLAIN = "RVWEAR_PLAIN_PYTHON"

@@ -7,7 +7,7 @@ from pathlib import Path
 from fmu_src.compiler.loading import fill_unit
 from fmu_src.compiler.module import Module
 from fmu_src.compiler.types import KernelFault, Layout
-from fmu_src.effect_check import Finding
+from fmu_src.effect_finding import Finding
 from fmu_src.unit import make_unit
 from reducers.reducer import load_reducer
 from studies.effect_child import findings_by

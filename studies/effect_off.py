@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from fmu_src.effect import Effect
-from fmu_src.effect_check import Finding
+from fmu_src.effect_finding import Finding
 from reducers.reducer import load_reducer
 from rv_plant import effects as of_plant
 from rv_plant import plant

@@ -1,194 +1,290 @@
-"""What names of files say of loads, and what is asked where they do not say it; the command that is printed can be run as it stands."""
+"""A campaign from file names, options and answers: what is guessed is what was meant, and what is needed is said."""
 
-import shlex
+import json
+import re
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from bench_files import ANGLE, ARCMIN, ARCSEC, ERROR, TORQUE, TWIST
+from bench_files import ANGLE, ARCSEC, DEPTH, ERROR, HOURS, KGM, TORQUE, TURN, TWIST, binary, write
 
 from cli.main import main
-from cli.show.guessed_runs import in_one
-from discrepancy.campaign.guess.conditions import joined
+from discrepancy.campaign.angle_doubts import turns_text
 from discrepancy.campaign.guess.file_names import proposed
 from discrepancy.campaign.guess.given_names import by_pattern
+from discrepancy.campaign.guess.header_units import unit_in
 from discrepancy.campaign.guess.propose import propose
 from discrepancy.campaign.guess.wishes import Wishes
+from discrepancy.campaign.guess.write import campaign_text, checked, write_campaign
+from discrepancy.campaign.load import load_campaign
+from discrepancy.compare import incomplete
 from fmu_src.faults import InputFault
+from reducers.library import named_in
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
-def error_files(folder, *names):
-    folder.mkdir(exist_ok=True)
-    for name in names:
-        pd.DataFrame({"Winkel Abtrieb [°]": np.degrees(ANGLE), "Drehfehler [arcsec]": ERROR / ARCSEC}).to_csv(folder / f"{name}.csv", index=False)
-    return folder
+def existing(folder: Path) -> dict:
+    with (folder / "campaign.toml").open("rb") as file:
+        return tomllib.load(file)
 
 
-def loop_files(folder, *names):
-    for name in names:
-        pd.DataFrame({"torque [N.m]": TORQUE, "twist [arcmin]": TWIST / ARCMIN}).to_csv(folder / f"{name}.csv", index=False)
-    return folder
+def by_file(content: dict) -> dict[str, tuple]:
+    return {r["file"]: (r["quantity"], r["replicate"], {k: c["column"] for k, c in r["columns"].items()}, r.get("tags", {})) for r in content["runs"]}
 
 
-def test_names_of_conditions_keep_degrees(tmp_path):
-    """``entrée_bloquée_à_90``, of which nobody knows what 90 is."""
-    names = [f"Hystérésis entrée bloquée à {angle} essai {k}" for angle in ("0°", "90 °") for k in (1, 2)]
-    proposal = propose([loop_files(tmp_path, *names)], Wishes("RV20E-121"))
-    assert {name: stated["locked_at"] for name, stated in proposal.conditions.items()} == {"entrée_bloquée_à_0deg": "0 deg", "entrée_bloquée_à_90deg": "90 deg"}
-    # Of other signs of the kind not all are degrees.
-    assert [joined([text]) for text in ("bloqueado a 90º", "1º bloque", "n° 3", "80 %")] == ["bloqueadoa90deg", "1ºbloque", "n3", "80pct"]
+def partition(content: dict) -> set[frozenset[str]]:
+    conditions: dict[str, set[str]] = {}
+    for run in content["runs"]:
+        conditions.setdefault(run["condition"], set()).add(run["file"])
+    return set(map(frozenset, conditions.values()))
 
 
-@pytest.mark.parametrize("name, load, pattern", [
-    ("DGF_Last50Nm_Lauf2", 50, "DGF_Last{load}Nm_Lauf{replicate}"), ("g7_T100Nm_2", 100, "g7_T{load}Nm_{replicate}"), ("TE 100 Nm 2", 100, "TE {load} Nm {replicate}"),
-    ("TE_100_Nm_2", 100, "TE_{load}_Nm_{replicate}"), ("Last100Nm_2", 100, "Last{load}Nm_{replicate}"), ("Last_100Nm_2", 100, "Last_{load}Nm_{replicate}"),
-    ("load12,5Nm_2", 12.5, "load{load}Nm_{replicate}"), ("Pruefling_Last 1,2 kNm_2", 1.2, "Pruefling_Last {load} kNm_{replicate}"),
-])  # fmt: skip
-def test_loads_in_names(name, load, pattern):
-    said = proposed(Path(f"{name}.csv"))
-    unit = "kN.m" if "kNm" in name else "N.m"
-    assert said.pattern == pattern and said.numbers == {"load": (load, unit)} and said.replicate == 2
-    assert by_pattern(Path(f"{name}.csv"), pattern).numbers == said.numbers
+def same(folder: Path) -> None:
+    """Quantities, columns, units, tags, repetitions and what belongs to one condition are those of the folder's campaign."""
+    kept = existing(folder)
+    text = campaign_text(propose(sorted(folder.glob("*.csv")), Wishes("RV20E-121")), folder)
+    guessed = tomllib.loads(text)
+    assert by_file(guessed) == by_file(kept)
+    assert partition(guessed) == partition(kept)
+    units = [{r["file"]: {k: c["unit"] for k, c in r["columns"].items()} for r in content["runs"]} for content in (guessed, kept)]
+    assert units[0] == units[1]
 
 
-@pytest.mark.parametrize("name, numbers, pattern, replicate", [
-    ("te-50Nm-40C-1", {"load": 50.0, "temperature": 40.0}, "te-{load}Nm-{temperature}C-{replicate}", 1),
-    ("te-50Nm-60C-2", {"load": 50.0, "temperature": 60.0}, "te-{load}Nm-{temperature}C-{replicate}", 2),
-    ("te-40C", {"temperature": 40.0}, "te-{temperature}C", None),
-    # A minus stays one: behind another hyphen, behind the letter that names the number, and where underlines part the name.
-    ("te--10C", {"temperature": -10.0}, "te-{temperature}C", None), ("te-T-10C", {"temperature": -10.0}, "te-T{temperature}C", None),
-    ("temp-10C", {"temperature": -10.0}, "temp{temperature}C", None), ("te_-10C", {"temperature": -10.0}, "te_{temperature}C", None),
-    ("2024-05-03", {}, "{any}", None),
-    ("角度伝達誤差_50Nm_2回目", {"load": 50.0}, "角度伝達誤差_{load}Nm_{replicate}回目", 2), ("传动误差_50Nm_第2次", {"load": 50.0}, "传动误差_{load}Nm_第{replicate}次", 2),
-])  # fmt: skip
-def test_hyphens_part_names_that_nothing_else_parts(name, numbers, pattern, replicate):
-    found = proposed(Path(f"{name}.csv"))
-    assert ({key: number for key, (number, _) in found.numbers.items()}, found.pattern, found.replicate) == (numbers, pattern, replicate)
+def test_the_hidden_effect_is_guessed_as_it_is():
+    same(ROOT / "examples" / "hidden_effect" / "campaign")
 
 
-@pytest.mark.parametrize("name", ["Probe2h_1", "Probe_2_C_1", "V2K", "te_run_2"])
-def test_letters_and_single_signs_are_no_units(name):
-    assert not proposed(Path(f"{name}.csv")).numbers
+@pytest.mark.parametrize("patterned, plain", [("te_{load}Nm_{speed}rpm_{replicate}", "te_167Nm_15rpm_2"), ("TE {temperature}°C {direction} rep{replicate}", "TE 40°C fwd rep2"),
+                                              ("Histéresis {load} Nm medida {replicate}", "Histéresis 50 Nm medida 2"), ("loop_{hours}h_{replicate}", "loop_1000h_2"), ("{any}_te_{load}%_{replicate}", "20240102_te_50%_2")])  # fmt: skip
+def test_patterns_of_names(patterned, plain):
+    said = proposed(Path(f"{plain}.csv"))
+    assert said.pattern == patterned and said.replicate == 2 and not said.label
+    again = by_pattern(Path(f"{plain}.csv"), patterned)
+    assert (again.numbers, again.replicate, again.direction) == (said.numbers, said.replicate, said.direction)
 
 
-def test_a_number_in_names_that_nobody_understands_is_asked_about(tmp_path, capsys):
-    """One value for all files would be wrong: the pattern is proposed, once, and as printed it does what was meant."""
-    folder = error_files(tmp_path / "Prüfstand 7", "te_X50_1", "te_X100_1", "te_X167_1")
-    loop_files(folder, "loop_20C_1", "loop_20C_2")
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm"]) == 1
-    command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
-    assert command.count("--names") == 1 and "te_X{load_torque:N.m}_{replicate}" in command and not any("load_torque=" in word for word in command)
-    assert main(command[1:]) == 0
-    out = capsys.readouterr().out
-    assert "load_torque 167 N m" in out and "load_torque 50 N m" in out
-    assert shlex.split(out.strip().splitlines()[-1]) == ["rvwear", "compare", "RV20E-121", str(folder)]
-
-
-def test_what_two_quantities_need_is_asked_once(tmp_path, capsys):
-    folder = error_files(tmp_path / "a", "te")
-    pd.DataFrame({"input_speed [rpm]": [200.0, 600, 1000], "efficiency [%]": [60.0, 61, 62]}).to_csv(folder / "efficiency.csv", index=False)
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121", "--condition", "output_speed=15 rpm", "--held-out"]) == 1
-    command = shlex.split(capsys.readouterr().out.strip().splitlines()[-1])
-    assert command.count("load_torque=...") == 1 and "--held-out" in command
-
-
-def test_files_that_fit_no_pattern_are_guessed_and_said_where_others_of_their_kind_fit(tmp_path):
-    """A pattern of transmission errors made a doubt of each loop, which it was not meant for."""
-    folder = loop_files(error_files(tmp_path / "a", "te_50_1", "te_100_1", "Drehfehler_75Nm_Lauf1"), "Hysterese_20C_Lauf1")
-    proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}",)))
-    loads = {c["load_torque"] for c in proposal.conditions.values() if "load_torque" in c}
-    assert proposal.conditions["20degC"] == {"temperature": "20 degC"} and {"50 N.m", "75 N.m", "100 N.m"} == loads
-    said = [doubt for doubt in proposal.doubts if "fits none of the given names" in doubt.text]
-    assert [doubt.place for doubt in said] == ["Drehfehler_75Nm_Lauf1.csv"] and "--names 'Drehfehler_{load}Nm_Lauf{replicate}'" in said[0].remedy
-    without = propose([folder], Wishes("RV20E-121"))
-    loop, as_without = (next(run for run in found.runs if "Hysterese" in run.guessed.path.name) for found in (proposal, without))
-    assert loop.guessed.name == as_without.guessed.name
-
-
-def test_repetitions_that_do_not_count_from_one_are_doubted(tmp_path):
-    """Speeds of P100-N10 and P100-N20 were taken for repetitions without a word."""
-    for name in ("P100-N10", "P100-N20"):
-        pd.DataFrame({"angle [deg]": np.degrees(ANGLE), "te [arcsec]": ERROR / ARCSEC}).to_csv(tmp_path / f"{name}.csv", index=False)
+@pytest.mark.parametrize("word", ["run", "nr", "Wdh", "essai", "Versuch", "mesure", "medida", "repetition", "M", "v", "aufbau"])
+def test_repetitions_are_no_conditions(tmp_path, word):
+    """Known words count; of any other it is said why."""
+    for k in (1, 2, 3):
+        write(tmp_path, "loop").rename(tmp_path / f"loop_35C_{word}{k}.csv")
     proposal = propose([tmp_path], Wishes("RV20E-121"))
-    (doubt,) = (d for d in proposal.doubts if "repetitions" in d.text)
-    assert doubt.text.startswith("10, 20 in P100-N{replicate}") and "--names 'P100-N{speed}'" in doubt.remedy
-    # Numbers from 1 on are what they seem.
-    for name, counted in (("P100-N10", "P100-N1"), ("P100-N20", "P100-N2")):
-        (tmp_path / f"{name}.csv").rename(tmp_path / f"{counted}.csv")
-    assert not any("repetitions" in d.text for d in propose([tmp_path], Wishes("RV20E-121")).doubts)
+    assert len(proposal.conditions) == 1 and [run.replicate.value for run in proposal.runs] == [1, 2, 3]
+    assert not proposal.held_out and proposal.runs[0].guessed.name.pattern == f"loop_{{temperature}}C_{word}{{replicate}}"
+    said = [d for d in proposal.doubts if "aufbau1 to aufbau3 are taken for repetitions of one condition" in d.text]
+    assert [d.remedy for d in said] == (["--names 'loop_{temperature}C_{condition}' if they are conditions"] if word == "aufbau" else [])
+    assert len(propose([tmp_path], Wishes("RV20E-121", names=("loop_{temperature}C_{condition}",))).conditions) == 3
 
 
-def test_conditions_side_by_side_in_one_file_are_told(tmp_path):
-    """The first of three loads was taken, under the last load of the file's name."""
-    columns = {f"TE {load}Nm (arcsec)": ERROR / ARCSEC * load / 100 for load in (50, 100, 167)}
-    pd.DataFrame({"Winkel (Grad)": np.degrees(ANGLE), **columns}).to_csv(tmp_path / "te_50_100_167Nm.csv", index=False)
-    (doubt,) = (d for d in propose([tmp_path], Wishes("RV20E-121")).doubts if "differ by a number alone" in d.text)
-    assert "'TE 50Nm (arcsec)' is taken, not 'TE 100Nm (arcsec)', 'TE 167Nm (arcsec)'" in doubt.text and "columns.value" in doubt.remedy
-    given = propose([tmp_path], Wishes("RV20E-121", columns={"value": "TE 100Nm (arcsec)"}))
-    assert not any("differ by a number alone" in d.text for d in given.doubts)
+@pytest.mark.parametrize("names", [("T50", "T100"), ("a1", "b2"), ("x2", "x3"), ("x1_20C", "x2_30C"), ("M10", "M50")])
+def test_other_numbers_are_conditions(tmp_path, names):
+    for name in names:
+        write(tmp_path, "loop").rename(tmp_path / f"loop_{name}.csv")
+    assert len(propose([tmp_path], Wishes("RV20E-121")).conditions) == 2
 
 
-def test_the_first_pattern_that_fits_counts(tmp_path):
-    folder = error_files(tmp_path / "a", "te_50_1", "te_x_1")
-    proposal = propose([folder], Wishes("RV20E-121", names=("te_{load}_{replicate}", "te_{condition}_{any}")))
-    assert [run.guessed.name.pattern for run in proposal.runs] == ["te_{load}_{replicate}", "te_{condition}_{any}"]
+def test_names_that_do_not_fit_are_said(tmp_path):
+    with pytest.raises(InputFault, match=r"no field \{lod\}.*did you mean load"):
+        by_pattern(Path("te_1.csv"), "te_{lod}")
+    with pytest.raises(InputFault, match=r"--names 'x_\{load\}' fits none of the 1 files \(te_1.parquet"):
+        propose([binary(tmp_path, "parquet")], Wishes(names=("x_{load}",)))
 
 
-@pytest.mark.parametrize("unit", ["Upm", "Umin", "U_min", "U-min"])
-def test_turns_a_minute_in_names(unit):
-    assert proposed(Path(f"te_15{unit}_50Nm_1.csv")).numbers["speed"] == (15.0, "rpm")
+@pytest.mark.parametrize("header, unit", [("te [\"]", "arcsec"), ("M / Nm", "N.m"), ("误差(角秒)", "arcsec"), ("n [min⁻¹]", "rpm"), ("Speed in rpm", "rpm"), ("T_in", None), ("phi", None)])
+def test_units_in_headers(header, unit):
+    assert (unit_in(header) or (None,))[0] == unit
 
 
-def test_turns_in_a_name_are_asked_whether_they_are_those_a_minute(tmp_path, capsys):
-    """15U was "a unit of angle"; where no name differed from it, nothing pointed at it."""
-    folder = error_files(tmp_path / "bench", "te_15U_50Nm_1", "te_15U_50Nm_2")
-    with pytest.raises(InputFault, match=r"'U' behind \{speed\} is turns: does it stand for turns a minute \(U/min\)\? Then write 'te_\{speed:rpm\}U_\{load\}Nm_"):
-        propose([folder], Wishes("RV20E-121", names=("te_{speed}U_{load}Nm_{replicate}",)))
-    assert main(["campaign", "from", str(folder), "--reducer", "RV20E-121"]) == 1
-    asked = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear campaign from"))
-    assert main(shlex.split(asked)[1:]) == 0
+def test_one_command(tmp_path, capsys):
+    for load in (50, 100, 167):
+        for k in (1, 2):
+            pd.DataFrame({"Winkel [°]": np.degrees(ANGLE), "te [arcsec]": ERROR / ARCSEC + 0.1 * k * np.cos(ANGLE)}).to_csv(tmp_path / f"te_{load}Nm_15rpm_{k}.csv", index=False)
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert not told["written"] and not (tmp_path / "campaign.toml").exists()
+    assert list(told["held_out"]) == ["100N.m"] and "inside the range" in told["held_out"]["100N.m"]["reason"]
+    assert told["runs"][0]["columns"]["angle"]["unit"] == {"value": "deg", "reason": "[°] in its header", "sure": True}
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 0
+    assert capsys.readouterr().out.rstrip().endswith(f"rvwear compare RV20E-121 {tmp_path}")
+    campaign = load_campaign(tmp_path)
+    assert len(campaign.records) == 6 and len(campaign.held_out) == 2
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121"]) == 2
+    assert "exists already" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("text, speed", [("errore 60Nm 750 giri 1", 750.0), ("te_50Nm_1500tours_2", 1500.0), ("et 50Nm 900 vueltas 1", 900.0)])
-def test_many_turns_in_a_name_are_turns_a_minute(text, speed):
-    found = proposed(Path(f"{text}.csv"))
-    assert found.numbers["speed"] == (speed, "rpm") and "{speed:rpm}" in found.pattern
-    assert "speed" not in proposed(Path("te_50Nm_15U_1.csv")).numbers and "speed" not in proposed(Path("te_50Nm_2 giri_1.csv")).numbers
+@pytest.mark.parametrize("options, said", [
+    (["--condition", "speeed=15 rpm"], "--condition speeed: there is no such thing"), (["--quantity", "hysteresi"], "did you mean hysteresis"),
+    (["--unit", "x"], "--unit x: write NAME=VALUE"), (["--counts", "x=many"], "a whole number"), (["--held-out", "nowhere"], "there is no condition|no such condition"),
+    (["--condition", "b:hours=0 h"], "there is no condition b"),
+])  # fmt: skip
+def test_wrong_options_are_said(tmp_path, capsys, options, said):
+    write(tmp_path, "plain")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run", *options]) == 2
+    assert re.search(said, capsys.readouterr().err)
 
 
-def test_a_pattern_says_where_the_input_was_locked(tmp_path):
-    """It counts before what the head says; in degrees, or in the unit behind it; one of another kind is refused."""
-    for file in list(loop_files(tmp_path, "Schleife 0° 2", "Schleife 120° 2").glob("*.csv")):
-        file.write_text("Eingang gesperrt bei 40 deg\n\n" + file.read_text(encoding="utf-8"), encoding="utf-8")
-    proposal = propose([tmp_path], Wishes("RV20E-121", names=("Schleife {locked_at}° {replicate}",)))
-    assert sorted(stated["locked_at"] for stated in proposal.conditions.values()) == ["0 deg", "120 deg"]
-    assert by_pattern(Path("loop_1.5rad_1.csv"), "loop_{locked_at}rad_{replicate}").numbers == {"locked_at": (1.5, "rad")}
-    with pytest.raises(InputFault, match="'rpm' behind {locked_at} is a unit of speed, not of angle"):
-        by_pattern(Path("loop_15rpm_1.csv"), "loop_{locked_at}rpm_{replicate}")
+def test_guesses_are_overruled(tmp_path):
+    write(tmp_path, "loop_bare")
+    wishes = Wishes("RV20E-121", units={"*:y": "arcsec", "x": "kgf.m"}, tags={"locked": "output"}, conditions={"output_speed": "10 rpm"})
+    record = checked(propose([tmp_path], wishes)).records[0]
+    assert record.values == pytest.approx(TWIST / 60.0, abs=1e-8) and record.tags["locked"] == "output"
+    assert record.axes["torque"] == pytest.approx(TORQUE * KGM, abs=1e-4)
 
 
-def test_long_names_of_runs_are_not_cut(tmp_path, capsys):
-    """Twelve runs were all "Error_de_transmisión_100_Nm_600_r…"."""
-    error_files(tmp_path, *(f"Error de transmisión del banco de ensayo 100 Nm 600 rpm medida {k}" for k in (1, 2)))
-    assert main(["campaign", "from", str(tmp_path), "--dry-run", "--reducer", "RV20E-121"]) in (0, 1)
+def test_a_logger_with_many_channels(tmp_path):
+    noise = np.random.default_rng(1).normal(0.0, 0.5, len(ANGLE))
+    pd.DataFrame({
+        "Zeit [s]": np.arange(len(ANGLE)) / 100, "Winkel Abtrieb [°]": np.degrees(ANGLE), "Winkel Antrieb [°]": 121 * np.degrees(ANGLE),
+        "Drehmoment Abtrieb Soll [Nm]": 167.0, "Drehmoment Abtrieb [Nm]": 167 + noise, "Drehzahl Antrieb [1/min]": 1815 + noise, "Drehfehler [arcsec]": ERROR / ARCSEC,
+        "Zustand": "ok", "rep": 1,
+    }).to_csv(tmp_path / "te_3.csv", sep=";", decimal=",", index=False)  # fmt: skip
+    record = checked(propose([tmp_path], Wishes("RV20E-121"))).records[0]
+    assert record.quantity == "transmission_error" and record.values == pytest.approx(ERROR) and record.replicate == 3
+    assert record.axes["load"] == pytest.approx(167 + noise) and record.axes["speed"] == pytest.approx((1815 + noise) * TURN / 60)
+    assert record.axes.keys() == {"angle", "time", "load", "speed"}
+
+
+@pytest.mark.parametrize("columns, quantity", [
+    ({"time_s": ANGLE, "acc_x [m/s2]": ERROR}, "vibration"), ({"order": np.arange(99.0), "amp [m/s^2]": np.sin(np.arange(99.0))}, "vibration_order"),
+    ({"time [h]": HOURS, "T_housing [degC]": 20 + HOURS}, "temperature"), ({"angle [deg]": np.arange(360.0), "depth [um]": np.sin(np.arange(360.0) / 60)}, "wear_profile"),
+    ({"hours": HOURS, "lost motion [arcsec]": 40 + HOURS}, "lost_motion"), ({"load": HOURS, "efficiency [%]": 60 + HOURS / 100}, "efficiency"),
+    ({"hours": HOURS, "Fe [ppm]": HOURS}, "debris_iron"), ({"t": np.arange(601), "Torque (Nm)": TORQUE, "Output (deg)": TWIST, "Motor pos (deg)": 0 * TWIST}, "hysteresis"),
+])  # fmt: skip
+def test_other_quantities(tmp_path, columns, quantity):
+    pd.DataFrame(columns).to_csv(tmp_path / "a.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm"}))
+    assert proposal.runs[0].guessed.quantity.value == quantity and proposal.runs[0].guessed.quantity.sure
+
+
+def test_a_speed_that_is_given_for_all_is_none_of_loops(tmp_path):
+    """It was written to their conditions, too; what is shared with a file that has one, or given for a condition by its name, stays."""
+    for name, kind in (("te_167Nm_1", "plain"), ("loop_20C_1", "loop"), ("loop_40C_1", "loop")):
+        write(tmp_path, kind).rename(tmp_path / f"{name}.csv")
+    given = {"output_speed": "15 rpm", "load_torque": "100 N.m", "temperature": "20 degC"}
+    proposal = propose([tmp_path], Wishes("RV20E-121", conditions=given))
+    by_run = {run.name: proposal.conditions[run.condition] for run in proposal.runs}
+    assert by_run["loop_20C_1"] == {"temperature": "20 degC"} and by_run["loop_40C_1"] == {"temperature": "40 degC"}
+    assert by_run["te_167Nm_1"] == {"output_speed": "15 rpm", "load_torque": "167 N.m", "temperature": "20 degC"}
+    loop = next(run.condition for run in proposal.runs if run.name == "loop_20C_1")
+    assert propose([tmp_path], Wishes("RV20E-121", conditions={**given, f"{loop}:output_speed": "1 rpm"})).conditions[loop]["output_speed"] == "1 rpm"
+
+
+def test_one_is_not_many(tmp_path, capsys):
+    write(tmp_path, "loop")
+    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run"]) == 0 and ": 1 run " in capsys.readouterr().out
+    assert turns_text(1.0) == "1 turn" and turns_text(0.999) == "0.999 turns" and turns_text(121.0) == "121 turns"
+
+
+def test_a_motor_that_turns_on_shows_its_torque_and_no_loop(tmp_path):
+    k = np.arange(601)
+    columns = {"TIME": 1.72e18 + 1e7 * k, "POSITION": k / 20, "TORQUE": 2 + np.sin(k / 50), "MOTOR_TEMPERATURE": 20 + k / 200}
+    pd.DataFrame(columns).to_csv(tmp_path / "run.csv", index=False)
+    run = propose([tmp_path], Wishes("RV20E-121", conditions={"output_speed": "15 rpm", "load_torque": "0 N.m"})).runs[0].guessed
+    # With load or without, no file says.
+    assert run.quantity.value == "input_torque" and not run.quantity.sure and "no_load_torque" in run.quantity.reason
+    assert run.columns["time"].unit.value == "ns" and run.columns["time"].keys == {"from_start": True}
+
+
+def test_the_first_hours_of_a_wear_test_have_the_unit_of_the_others(tmp_path):
+    for k, scale in enumerate((0.005, 1.0, 1.0), 1):
+        pd.DataFrame({"hours": HOURS, "y": scale * DEPTH / 1e-6}).to_csv(tmp_path / f"life{k}_wear_depth_flank_1.csv", index=False)
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert [run.guessed.columns["value"].unit.value for run in proposal.runs] == ["um"] * 3
+    assert all("taken for um" in doubt.text for doubt in proposal.doubts)
+
+
+def test_words_that_part_rows_are_said(tmp_path):
+    rows = "".join(f"{state};{angle};{angle % 7}\n" for state in ("rated", "half") for angle in range(0, 720, 2))
+    (tmp_path / "te.csv").write_text("test;phi_out [deg];te [arcsec]\n" + rows)
+    assert any("'test' holds words (half, rated)" in doubt.text for doubt in propose([tmp_path], Wishes()).doubts)
+
+
+def test_many_columns_without_names_are_asked(tmp_path):
+    pd.DataFrame(np.random.default_rng(0).random((50, 6)), columns=list("abcdef")).to_csv(tmp_path / "x.csv", index=False)
+    with pytest.raises(InputFault, match="no quantity of a campaign fits; give units by --unit"):
+        propose([tmp_path], Wishes())
+
+
+def test_the_reducer_is_asked_for(tmp_path, capsys):
+    write(tmp_path, "plain")
+    for dry in (["--dry-run"], []):
+        assert main(["campaign", "from", str(tmp_path), "--json", *dry]) == 1
+        told = json.loads(capsys.readouterr().out)
+        assert [need["remedy"] for need in told["needs"]][-1].startswith("--reducer") and (tmp_path / "campaign.toml").is_file() == (not dry)
+
+
+def test_folders_below_count_and_names_that_fit_nothing_are_refused(tmp_path):
+    for folder in ("cold", "results", ".hidden"):
+        (tmp_path / folder).mkdir()
+        write(tmp_path / folder, "loop")
+    proposal = propose([tmp_path], Wishes("RV20E-121"))
+    assert [run.guessed.path.parent.name for run in proposal.runs] == ["cold"]
+    assert load_campaign(write_campaign(proposal, tmp_path).parent).records
+    with pytest.raises(InputFault, match=r"--names 'x_\{load\}' fits none of the 1 files \(loop_167Nm_15rpm_1.csv"):
+        propose([tmp_path], Wishes("RV20E-121", names=("loop_{load}Nm_{speed}rpm_{replicate}", "x_{load}")))
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputFault, match=r"no files: .*empty holds none of .*\.csv"):
+        propose([tmp_path / "empty"], Wishes("RV20E-121"))
+
+
+def test_no_table_is_said(tmp_path):
+    (tmp_path / "a.csv").write_text("nothing\nto see\n")
+    with pytest.raises(InputFault, match=r"a\.csv.*no table of numbers"):
+        propose([tmp_path], Wishes())
+
+
+def test_what_is_needed_is_said_with_the_command_that_says_it(tmp_path, capsys, monkeypatch):
+    """And once it is said, the file is written anew; a comparison in between tells what it took instead."""
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, "plain")
+    (tmp_path / "te_167Nm_15rpm_1.csv").rename(tmp_path / "run_1.csv")
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121"]) == 1
     shown = capsys.readouterr().out
-    rows = "".join(line.split("│")[1].strip() for line in shown.splitlines() if line.startswith("│"))
-    assert "…" not in shown and "Error_de_transmisión_del_banco_de_ensayo_100_Nm_600_rpm_medida_1, 2" in rows
+    assert "lacks what is needed" in shown and "rvwear campaign from run_1.csv --reducer RV20E-121 --overwrite --condition 'output_speed=...' --condition 'load_torque=...'" in shown
+    assert any("states no load, which run_1 need" in text and "the model's own is taken" in text for text in incomplete(load_campaign(tmp_path)))
+    said = ["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--condition", "load_torque=100 N.m", "--condition", "output_speed=15 rpm"]
+    assert main(said) == 2 and "give --overwrite to have it written anew" in capsys.readouterr().err
+    assert main([*said, "--overwrite"]) == 0
+    capsys.readouterr()
+    assert main(["campaign", "from", "run_1.csv", "--reducer", "RV20E-121", "--overwrite", "--json"]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert told["written"] and [need["text"].rpartition(" ")[2] for need in told["needs"]] == ["output_speed", "load_torque"]
+    assert main([*said, "--overwrite"]) == 0
+    assert not incomplete(load_campaign(tmp_path)) and load_campaign(tmp_path).records[0].factors["load"] == pytest.approx(100.0)
 
 
-def test_repetitions_share_a_row_and_a_unit_is_said_once(tmp_path, capsys):
-    """Sixteen runs took forty lines with names on two of them, and a unit stood there twice with where it is from."""
-    names = [f"Drehfehler_{load}Nm_1450_U_min_Versuch_{k}" for load in (50, 100) for k in (1, 2, 10)]
-    error_files(tmp_path, *names, "Drehfehler_150Nm_1450_U_min")
-    loop_files(tmp_path, *(f"Hysterese_Eingang_blockiert_90deg_Versuch_{k}" for k in (1, 2, 3, 4)), "Hysterese_warm_1")
-    assert main(["campaign", "from", str(tmp_path), "--reducer", "RV20E-121", "--dry-run"]) == 0
-    out = capsys.readouterr().out
-    rows = [" ".join(line.strip("│").split("│")[0].split()) for line in out.splitlines() if line.startswith("│")]
-    assert rows == [
-        "transmission_error:", "Drehfehler_100Nm_1450_U_min_Versuch_1, 2, 10", "Drehfehler_150Nm_1450_U_min", "Drehfehler_50Nm_1450_U_min_Versuch_1, 2, 10",
-        "hysteresis:", "Hysterese_Eingang_blockiert_90deg_Versuch_1 to 4", "Hysterese_warm_1",
-    ]  # fmt: skip
-    said = " ".join(out.split())
-    assert "column 'Drehfehler [arcsec]', its name says error, unit arcsec ([arcsec] in its header)" in said and said.count("[arcsec] in its header") == 1
-    assert in_one(["te_1_a", "te_2_a"]) == "" and in_one(["te_1", "te_12"]) == "te_1, 12" and in_one(["laufA", "laufB"]) == "laufA, B"
+def test_a_reducer_named_above_the_tables_is_proposed(tmp_path, capsys):
+    """The name is no answer: it may be the rigid one that is meant, or a file of one's own."""
+    lines = ["试验台,3号", "减速器型号,RV-20E-121", "", "输入转角(°),输出转角(°),传动误差(″)", *(f"{121 * k},{k},{np.sin(k):.3f}" for k in range(60))]
+    file = tmp_path / "传动误差_84Nm_600rpm_第1次.csv"
+    file.write_text("\n".join(lines), encoding="gb18030")
+    proposal = propose([file], Wishes(None))
+    [need] = [need for need in proposal.needs if "which reducer" in need.text]
+    assert need.text.endswith("lines above the tables say RV20E-121") and need.remedy.startswith("--reducer RV20E-121 ")
+    assert proposal.named == "RV20E-121" and not propose([file], Wishes("RV20E-121-rigid")).needs
+    [doubt] = [doubt for doubt in propose([file], Wishes("BX-40E")).doubts if doubt.place == "campaign"]
+    assert doubt.text == "lines above the tables say RV20E-121, not BX-40E" and doubt.remedy.startswith("--reducer RV20E-121")
+    # The command takes it, and says so.
+    assert main(["campaign", "from", str(file), "--output", str(tmp_path / "made")]) == 0
+    assert "reducer RV20E-121: as lines above the tables say" in capsys.readouterr().out
+    assert load_campaign(tmp_path / "made").reducer.name == "RV20E-121"
+    # Of one that was given it says that it was.
+    assert main(["campaign", "from", str(file), "--reducer", "RV20E-121", "--output", str(tmp_path / "given")]) == 0
+    assert "reducer RV20E-121: given; lines above the tables say the same\n" in capsys.readouterr().out
+    # By its name the output's, but a multiple of the input's beside it to the last digit: nobody has to be asked.
+    assert not any("whose the angle is" in doubt.text for doubt in proposal.doubts) and proposal.angle_of.value == "input"
+    said = ("i=121", ", ratio 121", " 1:121", "; i = 121", ", Übersetzung 121", ", rapport de réduction: 1/121", "; rapporto di riduzione;121", " 减速比：121")
+    assert {named_in([f"Riduttore: RV-20E {ratio}"]) for ratio in said} == {"RV20E-121"} and named_in(["RV20E 1:121"]) == "RV20E-121"
+    assert named_in(["RV-20E i=81, 121 runs"]) is None and named_in(["RV-20E, relación 1:81"]) is None and named_in(["BX-40E i=121"]) == "BX-40E"
+    # Not by the beginning of another number.
+    assert not any(map(named_in, (["RV20E i=1210"], ["RV-20E-1210"], ["RV-20E i=12.1"], ["RV-20E i=121.5"], ["CRV-20E-121"], ["BX-400E"])))
+    # Model and ratio on lines of their own.
+    for label in ("Rapport : 121", "Rapporto di riduzione;121", "# ratio = 121", "i=121", "Übersetzung: 1:121", "减速比：121"):
+        assert named_in(["Modèle : RV-20E", "Opérateur : 12", label]) == "RV20E-121"
+    for label in ("Rapport : 1210", "Rapport : 81", "Rapport : 121,5", "couple : 121", "1/121"):
+        assert named_in(["Modèle : RV-20E", label]) is None
+    assert named_in(["Modèle : RV-20E-81", "Rapport : 121"]) is None and named_in(["Modèle : RV-20E, i = 81", "i : 121"]) is None
+    assert named_in(["unit: BX 40E"]) == "BX-40E" and named_in(["RV20E"]) is None and named_in(["RV20E-121 or BX-40E"]) is None

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from discrepancy.catalogue.declared_signals import Change
     from discrepancy.catalogue.signature import Signature
     from fmu_src.effect import EffectParameter
-    from fmu_src.effect_check import Finding
+    from fmu_src.effect_finding import Finding
 
 
 def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -159,7 +159,8 @@ def unknown_words(file: Path) -> "list[Finding]":
     import ast
 
     from discrepancy.catalogue.signal_words import unknown
-    from fmu_src.effect_check import Finding, imported
+    from fmu_src.effect_check import imported
+    from fmu_src.effect_finding import Finding
 
     module = imported(file.absolute(), file.absolute().parent.name)[0]
     texts = unknown(module.EFFECT.signals) if module else []

@@ -26,7 +26,7 @@ from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from discrepancy.scales import shown
 from fmu_src.effect import Effect
-from fmu_src.effect_check import Finding
+from fmu_src.effect_finding import Finding
 from reducers.reducer import load_reducer
 from studies.effect_child import findings_by
 from studies.hysteresis import torque_way
