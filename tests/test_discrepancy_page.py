@@ -1,5 +1,6 @@
 """The pages of the loop: complete, offline, equal bytes for equal results, true to the numbers, also where there is little to show."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +10,11 @@ from page_model import ARCSEC, compared, diagnosed, figure, model_of, named, wri
 from discrepancy.alike.other_places import LookAlike, place_text
 from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.misfit.localise import Localisation
+from discrepancy.inference.refit.profile import profiles
 from discrepancy.inference.verdict import NONE, SET, STOPPED
 from discrepancy.page import amounts
 from discrepancy.page.answer import headline
+from discrepancy.page.profiles import figure as profile_figure
 from discrepancy.page.response import averaged
 from discrepancy.page.runs import runs_of
 from discrepancy.page.series import whose_noise
@@ -175,3 +178,11 @@ def test_diagnosis_of_nothing(tmp_path):
     assert found.verdict == NONE
     page = written(found, tmp_path)
     assert "The model is adequate" in page and 'id="effects"' not in page and 'id="laws"' not in page
+
+
+def test_a_profile_of_a_number_that_nothing_tells_has_its_range_for_a_band(answer):
+    """Its infinite deviation was drawn: the page ended with an error, and the answer with it."""
+    found = profiles(answer.diagnosis.fits.space, answer.diagnosis.fits.members[0])[0]
+    told = next(entry for effect in answer.effects for name, entry in effect["parameters"].items() if name == found.name)
+    drawn = profile_figure(0, found, "gap", {**told, "standard_deviation": float("inf"), "interval": (0.0, 1e-4)})
+    assert json.dumps([drawn.data, drawn.layout], allow_nan=False) and "the runs say nothing of it" in drawn.caption

@@ -213,16 +213,17 @@ def is_own(file: "ModelFile", target: Path) -> bool:
 
 
 def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
-    """An answer as page and on the screen, or as JSON with ``more``."""
+    """An answer on the screen, or as JSON with ``more``, then as a page: what a page takes, or lacks, keeps nobody from the answer."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.words.standing_notes import standing_notes
 
-    write_html(options, answer)
     if options.json:
         json_text(answer.as_json() | more)
     else:
         show_answer(answer, standing_notes(answer.model.campaign))
+    sys.stdout.flush()
+    write_html(options, answer)
 
 
 def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = GOES_ON, **more: object) -> int:

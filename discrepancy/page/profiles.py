@@ -109,7 +109,9 @@ def figure(place: int, p: Profile, name: str, told: Mapping[str, Any] | None = N
     x = scale.factor * p.values + scale.offset
     best, width = float(p.values[int(np.argmin(p.chi2))]), p.deviation
     fine = np.linspace(float(p.values.min()), float(p.values.max()), 61)
-    level, why = limit_of(p, told) if told else (LIMIT, "")
+    # What the runs say nothing of at the fit itself has its range for an interval, and no parabola's end.
+    open_ended = told is not None and not np.isfinite(told["standard_deviation"])
+    level, why = limit_of(p, told) if told and not open_ended else (LIMIT, "")
     ends = scale.factor * np.array(relied_on(told)) + scale.offset if told else np.array([])
     # An interval that is wider than the profile was followed is drawn to its ends, too.
     reach = [*p.values, *(relied_on(told) if told else ())]
@@ -130,5 +132,6 @@ def figure(place: int, p: Profile, name: str, told: Mapping[str, Any] | None = N
         shapes=[limit, *bands],
         annotations=[{"xref": "paper", "x": 1, "y": level, "text": "95 %", "showarrow": False, "xanchor": "right", "yanchor": "bottom"}],
     )
-    said = caption_of(p, told, scale, level, why) if told else "Below the line lie 95 %."
+    said = caption_of(p, told, scale, level, why) if told and not open_ended else "Below the line lie 95 %."
+    said += " Band: the parameter's range, which is stated as its interval, for at the fit itself the runs say nothing of it." if open_ended else ""
     return look.Figure(f"profile_{place}", name, said, data, layout, 6)

@@ -36,7 +36,8 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
 
     Of a model with parts that are off waves are not alike: then it is one that leaves least, of those alike that nearest to what is ``known``, or to 0.
 
-    A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``).
+    A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``), or the effects of the
+    model were fitted beside one.
     """
     zeros: dict[str, float] = {}
     for name, record in telling(bench, records).items():
@@ -52,7 +53,7 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
         least, more = misfits[best], misfits[PHASES // 2] - misfits[best]
         # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
         elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
-        if more > OF_MISFIT * least or elsewhere or always:
+        if more > OF_MISFIT * least or elsewhere or always or name in (known or {}):
             zeros[name] = float(shifts[best])
     return zeros
 

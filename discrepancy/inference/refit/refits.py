@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.bent import from_across
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, jointly, left_by, there
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
@@ -95,7 +96,10 @@ class Refits:
             self.widely.add(key)
             with self.space.predictions.roughly():
                 other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
-            self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
+                best = min(result, other, key=lambda r: r.fit.chi2)
+                if len(names) == 1 and (fit := from_across(self.space, best.fit, best.candidates[0])) is not best.fit:
+                    best = finished(self.space, best.candidates, fit)
+            self.fitted[key] = best
         return in_order(self.fitted[key], result.candidates)
 
     def without(self, joint: Refit, name: str) -> Refit:
