@@ -3,16 +3,20 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from discrepancy.inference.base_fit.fit import Box
 from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.refit.bent import exchange
 from discrepancy.inference.refit.effect_fit import total_cost
 from discrepancy.inference.refit.refit import estimates
+from discrepancy.inference.screening.screen import SMALL, TYPICAL, Block, Columns
+from discrepancy.inference.verdict import ONE
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.units import Condition
-from discrepancy.problem import Record
+from discrepancy.problem import Candidate, Parameter, Record
 from reducers.reducer import load_reducer
 from tests.test_other_places import campaign
 
@@ -39,13 +43,32 @@ def test_relief_of_a_profile_is_found_beyond_the_next_optimum():
     """A descent from the base model ended at 90 above the truth in chi-square, with the wrong sign of one number and an interval without the truth."""
     reducer = load_reducer("RV20E-121-rigid")
     model = PhysicalModel(ModelFile(reducer.name, reducer), replace(campaign(), reducer=reducer, records=measured()))
+    model.candidates = [c for c in model.candidates if c.name in ("profile_modification", "disc_tooth_errors.ovality", "hole_position_errors.carrier")]
     doctor = Diagnostician(model)
-    doctor.prepare()
-    [relief] = [c for c in doctor.candidates if c.name == "profile_modification"]
-    doctor.screened([relief])
-    final = doctor.refits.final([relief.name])
+    found = doctor.run()
+    final = found.fits.members[0]
+    assert (found.verdict, final.name) == (ONE, "profile_modification")
     truth = total_cost(doctor.space, Box(final.fit.parameters), {**dict.fromkeys(model.zeros, 0.0), **GROUND})[0]
     # No more than the noise of its three parameters above it.
     assert final.fit.chi2 < truth + 3.0
     intervals = {e.name: e.interval for e in estimates(doctor.space, final)}
     assert all(low < GROUND[name] < high for name, (low, high) in intervals.items())
+
+
+def test_only_amplitudes_that_do_nearly_the_same_have_a_valley():
+    rng = np.random.default_rng(3)
+    first, second, third = rng.standard_normal((3, 50))
+    two = Candidate("two", "", (Parameter("a", "m", 0.0, -1.0, 1.0, 1.0), Parameter("b", "m", 0.0, -1.0, 1.0, 1.0)))
+    alike, apart = np.column_stack([first, -2.0 * first + 0.1 * second]), np.column_stack([first, second])
+
+    def rate(*blocks):
+        """``blocks`` with the size that each is made over."""
+        made = tuple(Block(0, {}, slice(2 * k, 2 * k + 2), (0, 0), size) for k, (_, size) in enumerate(blocks))
+        return exchange(Columns(np.hstack([columns for columns, _ in blocks]), made), 0, two)
+
+    assert rate((alike, TYPICAL)) == pytest.approx(0.5, rel=0.02)
+    assert rate((apart, TYPICAL)) is None
+    # Straight ones have no other optimum.
+    assert rate((alike, SMALL)) is None
+    # What jams on one side and loosens on the other is seen between the two.
+    assert rate((np.column_stack([first, second]), TYPICAL), (np.column_stack([third, -first]), -TYPICAL)) == pytest.approx(1.0)

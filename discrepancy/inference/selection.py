@@ -10,6 +10,7 @@ import numpy as np
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.judgement import Judgement
 from discrepancy.inference.outlook import IN_EARNEST, Outlook
+from discrepancy.inference.refit.bent import exchange, leaves_some
 from discrepancy.inference.refit.confusable import (
     FORM,
     confusable_set,
@@ -100,6 +101,7 @@ class Selection:
         enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
+        fits = self.along_valleys(fits)
         widened = partial(self.refits.widened, least=self.near(fits[0]))
         fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
         self.outlook.after(IN_EARNEST)
@@ -107,6 +109,14 @@ class Selection:
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
+
+    def along_valleys(self, fits: list[Refit]) -> list[Refit]:
+        """``fits``, those of effects two amplitudes of which do nearly the same from wherever their valley goes on; not where noise is all that is left."""
+        if not leaves_some(fits[0].fit):
+            return fits
+        rates = {c.name: rate for k, c in enumerate(self.candidates) if c.name in self.scores and (rate := exchange(self.columns, k, c)) is not None}
+        found = self.tried("fitting along valleys", lambda s: self.refits.along_valley(s.name, rates[s.name]), [self.scores[name] for name in rates])
+        return sorted([*found, *(f for f in fits if f.candidates[0].name not in rates)], key=penalised)
 
     def shown(self) -> list[Score]:
         """Candidates that are known by orders alone, where the misfit has these."""

@@ -1,51 +1,74 @@
-"""Other optima of an effect two or three amplitudes of which do nearly the same, and not in proportion to their size.
+"""Other optima of an effect two amplitudes of which do nearly the same, and not in proportion to their size (equidistant and shift of a profile).
 
-Which teeth bear hangs on the amplitudes themselves (equidistant and shift of a profile), so that a descent ends where the next tooth comes into contact, and
-what the base fit had placed, the zero of the angles above all, holds it there.
+Which teeth bear hangs on the amplitudes themselves, so that a descent ends where the next tooth comes into contact, and what the base fit had placed, the zero
+of the angles above all, holds it there.  What explains the data lies along a narrow valley, which may begin far off: it is looked for over the plane.
 """
 
 from collections.abc import Mapping, Sequence
+from itertools import product
+from operator import itemgetter
 
 import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.effect_fit import EXPLAINS, jointly, total_cost
-from discrepancy.inference.refit.starts import MOST_AMPLITUDES, by_themselves
-from discrepancy.problem import Candidate, Parameter, Placing
+from discrepancy.inference.refit.effect_fit import jointly, total_cost
+from discrepancy.inference.screening.screen import TYPICAL, Columns, limits
+from discrepancy.problem import Candidate, Placing
+from fmu_src.arrays import Floats
 
-# Standard deviations of chi-square beyond which what a fit leaves is no noise's, and by which share of what they do amplitudes are bent.
-NO_NOISE, BENT = 3.0, 0.1
-# So many of the places are descended from.
-MOST_PLACES = 2
-
-
-def from_across(space: Workspace, fit: Fit, candidate: Candidate) -> Fit:
-    """The fit of one effect, or a better one from where each amplitude stands alone, with zeros of angles placed beside it; only of one that explains most of
-    the misfit and leaves what noise does not."""
-    if not leaves_some(space, fit) or not is_bent(space, fit, candidate.amplitudes):
-        return fit
-    model, box = space.model, Box(fit.parameters)
-    starts: list[Mapping[str, float]] = []
-    for form in by_themselves(candidate.amplitudes, fit.values):
-        starts.append({**form, **model.placed_anew(form)[1]} if isinstance(model, Placing) else form)
-    by_cost = space.threads.map(lambda start: total_cost(space, box, start)[0], starts)
-    for k in np.argsort(by_cost)[:MOST_PLACES]:
-        fit = min(fit, jointly(space, fit.parameters, starts[k], fit.candidates), key=lambda f: f.chi2)
-    return fit
+# Standard deviations of chi-square beyond which what a fit leaves is no noise's.
+NO_NOISE = 3.0
+# Cosine from which two amplitudes do nearly the same.
+SAME = 0.9
+# Of the misfit, what a fit must explain for its effect to be looked for elsewhere.
+WORTH_IT = 0.2
+# Places in typical sizes: of the first amplitude along the valley, and of the second beside what makes up for the first.
+ALONG = (-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0)
+ACROSS = (-4.0, -3.0, -2.4, -2.0, -1.6, -1.2, -0.8, -0.4, 0.4, 0.8, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0)
+# So many of the places are weighed with all records, and descended from.
+MOST_WEIGHED, MOST_PLACES = 12, 3
 
 
-def leaves_some(space: Workspace, fit: Fit) -> bool:
-    """Whether a fit explains more of the misfit than it leaves, and leaves what noise does not."""
+def leaves_some(fit: Fit) -> bool:
+    """Whether a fit leaves what noise does not."""
     count = len(fit.residual)
-    left = fit.chi2 - count
-    return bool(NO_NOISE * np.sqrt(2.0 * count) < left < EXPLAINS * (space.base.chi2 - count))
+    return bool(fit.chi2 - count > NO_NOISE * np.sqrt(2.0 * count))
 
 
-def is_bent(space: Workspace, fit: Fit, amplitudes: Sequence[Parameter]) -> bool:
-    """Whether half of two or three amplitudes changes something else than half of what they do."""
-    if not 1 < len(amplitudes) <= MOST_AMPLITUDES:
-        return False
-    off, half = ({**fit.values, **{p.name: p.off + share * (fit.values[p.name] - p.off) for p in amplitudes}} for share in (0.0, 0.5))
-    without, whole = space.residual(off), space.residual(fit.values)
-    return float(np.linalg.norm(space.residual(half) - 0.5 * (without + whole))) > BENT * float(np.linalg.norm(whole - without))
+def explains_some(space: Workspace, fit: Fit) -> bool:
+    """Whether a fit explains a part of the misfit that is worth a search."""
+    return bool(space.base.chi2 - fit.chi2 > WORTH_IT * (space.base.chi2 - len(fit.residual)))
+
+
+def exchange(columns: Columns, place: int, candidate: Candidate) -> float | None:
+    """How much of the second amplitude makes up for the first of the candidate at a ``place`` of the screening, in typical sizes, by the columns over large
+    ones to either side, of which one may jam what the other loosens; None where it has no two that do nearly the same."""
+    large = [columns.values[:, block.columns] for block in columns.blocks if block.candidate == place and abs(block.size) == TYPICAL]
+    if len(candidate.amplitudes) != 2 or not large:
+        return None
+    pairs = [(one[:, 0], other[:, 1]) for one in large for other in large]
+    first, second = max(pairs, key=lambda pair: abs(cosine(*pair)))
+    return -float(first @ second) / float(second @ second) if abs(cosine(first, second)) > SAME else None
+
+
+def cosine(a: Floats, b: Floats) -> float:
+    return float(a @ b) / max(float(np.linalg.norm(a) * np.linalg.norm(b)), 1e-300)
+
+
+def along_valley(space: Workspace, fit: Fit, candidate: Candidate, rate: float) -> Fit:
+    """The fit of one effect, or a better one from places all along its valley, with the zero of the angles placed at each."""
+    first, second = candidate.amplitudes
+    model, box = space.model, Box(fit.parameters)
+    reach = [max(limits(p)) for p in (first, second)]
+    starts: list[tuple[float, Mapping[str, float]]] = []
+    for along, across in product(ALONG, ACROSS):
+        if abs(along) <= reach[0] and abs(rate * along + across) <= reach[1]:
+            form = {**fit.values, first.name: first.off + along * first.scale, second.name: second.off + (rate * along + across) * second.scale}
+            left, places = model.placed_anew(form) if isinstance(model, Placing) else (0.0, {})
+            starts.append((left, {**form, **places}))
+    likely = [start for _, start in sorted(starts, key=itemgetter(0))[: MOST_WEIGHED if any(left for left, _ in starts) else None]]
+    by_cost: Sequence[float] = space.threads.map(lambda start: total_cost(space, box, start)[0], likely)
+    for k in np.argsort(by_cost)[:MOST_PLACES]:
+        fit = min(fit, jointly(space, fit.parameters, likely[k], fit.candidates), key=lambda f: f.chi2)
+    return fit

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.bent import from_across
+from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, jointly, left_by, there
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
@@ -96,11 +96,18 @@ class Refits:
             self.widely.add(key)
             with self.space.predictions.roughly():
                 other = refit(self.space, result.candidates, [self.scores[n] for n in names if n in self.scores], result.fit.values, True, least)
-                best = min(result, other, key=lambda r: r.fit.chi2)
-                if len(names) == 1 and (fit := from_across(self.space, best.fit, best.candidates[0])) is not best.fit:
-                    best = finished(self.space, best.candidates, fit)
-            self.fitted[key] = best
+            self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
         return in_order(self.fitted[key], result.candidates)
+
+    def along_valley(self, name: str, rate: float) -> Refit:
+        """The fit of an effect alone from places all along the valley of its two amplitudes, if one of them is better; ``rate``: see ``bent.exchange``."""
+        known = self.fit([name])
+        if explains_some(self.space, known.fit):
+            with self.space.predictions.roughly():
+                fit = along_valley(self.space, known.fit, known.candidates[0], rate)
+                if fit.chi2 < known.fit.chi2 - BETTER:
+                    self.fitted[frozenset([name])] = finished(self.space, known.candidates, fit)
+        return self.fitted[frozenset([name])]
 
     def without(self, joint: Refit, name: str) -> Refit:
         """The fit of the others of ``joint`` as it is reported, from its own start and from where they stand in ``joint``."""

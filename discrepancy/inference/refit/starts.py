@@ -14,8 +14,6 @@ from fmu_src.arrays import Floats
 
 # Sizes of a start over the score test's estimate, and over a parameter's typical size.
 FACTORS, SIZES = (0.25, 4.0), (0.5, 2.0)
-# Sizes, over a typical one, at which a valley of two amplitudes is crossed along each.
-ACROSS = (1.0, 2.0, 4.0)
 # More amplitudes than these have too many quadrants; they are harmonics of one pattern.
 MOST_AMPLITUDES = 3
 # A harmonic's phases [rad]; with the sign turned it shows as much.
@@ -37,12 +35,6 @@ def other_starts(amplitudes: Sequence[Parameter], start: Mapping[str, float]) ->
                 moved = {p.name: _inside(p, p.off + sign * size * p.scale) for p, sign in zip(amplitudes, signs)}
                 found.append({**start, **moved})
     return found
-
-
-def by_themselves(amplitudes: Sequence[Parameter], start: Mapping[str, float]) -> list[dict[str, float]]:
-    """Starts at which each amplitude stands alone, to either side at some sizes: where two do nearly the same, each of them crosses the valley."""
-    off = {**start, **{p.name: p.off for p in amplitudes}}
-    return [{**off, p.name: _inside(p, p.off + sign * size * p.scale)} for p in amplitudes for size in ACROSS for sign in (1.0, -1.0) if p.sign in (0, sign)]
 
 
 def alone(amplitudes: Sequence[Parameter], start: Mapping[str, float]) -> list[list[dict[str, float]]]:
