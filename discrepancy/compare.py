@@ -13,9 +13,11 @@ from discrepancy.alike.untold import parts_untold_before
 from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
+from discrepancy.campaign.doubts import order_of_rows
 from discrepancy.campaign.findings import Finding, missing_factors
 from discrepancy.campaign.model import Campaign
-from discrepancy.campaign.repetition_words import copied_words, words
+from discrepancy.campaign.quantities import VALUE
+from discrepancy.campaign.repetition_words import copied_words, what_is_done, words
 from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, stands_at_bound
 from discrepancy.doubts.calibrated_doubts import calibrated_doubts, softer_by_loops
@@ -101,18 +103,16 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     predictions = space.predictions(space.base.values, every)
     floating = floating_of(model.campaign)
     runs = [run | {"near_no_torque": floating.get(run["run"], 0)} for run in runs_of(space, predictions)]
-    found = outlying(space.records)
     scales = doubts_of(zip(space.records, predictions), campaign)
     # With effects in the model file positions are found; without, all are the mean.
     places = place_texts(model, frozenset(), space.base.values)
     doubts = [f"{d.text}; {d.remedy}" for d in (*scales, *([] if places else locked_doubts(campaign)))] + places
     figures = figures_of(diagnostician, model)
-    doubts += [outlier_text(o, runs) for o in found]
     doubts += calibrated_doubts(space.base, as_told.tables_of(model), records=space.records, softer=softer_by_loops(figures))
     doubts += zero_texts(model, space, space.base)
-    warnings = parts_untold_before(file) + beforehand(model, figures) + doubts + warnings_of(model, list(space.noise.warnings))
+    warnings = parts_untold_before(file) + beforehand(model, figures, runs) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
-    return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, found, figures, scales)
+    return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, outlying(campaign.records), figures, scales)
 
 
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
@@ -174,26 +174,28 @@ def runs_of(space: Workspace, predictions: Sequence[Floats]) -> list[dict[str, A
         floor = whitener.floor
         runs.append({
             "run": record.name, "signal": stream_of(record), "condition": record.condition, "replicate": record.replicate,
-            "held_out": record.held_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),
+            "held_out": record.held_out, "left_out": record.left_out, "unit": record.unit, "samples": int(kept.sum()), "dropped": int((~kept).sum()),
             "error": error, "noise_floor": floor, "ratio": error / floor if floor > 0.0 else float("inf"),
         })  # fmt: skip
     return runs
 
 
-def outlier_text(found: Outlying, runs: list[dict[str, Any]]) -> str:
-    """A repetition that stands out, and what the model makes of it and of the others."""
+def outlier_text(found: Outlying, model: PhysicalModel, runs: Sequence[Mapping[str, Any]] = ()) -> str:
+    """A repetition that stands out, what the model makes of it and of the others in these ``runs``, and what is done about it."""
     alike = [r for r in runs if r["signal"] == found.signal and r["condition"] == found.condition]
     own = [r["error"] for r in alike if r["run"] == found.run]
     rest = [r["error"] for r in alike if r["run"] != found.run]
     errors = [shown(v, found.unit, found.signal) for v in (*own, min(rest), max(rest))] if own and rest else []
-    return words(found) + (f"; the model errs there by {errors[0]}, in the others by {' to '.join(dict.fromkeys(errors[1:]))}" if errors else "")
+    errs = f"; the model errs there by {errors[0]}, in the others by {' to '.join(dict.fromkeys(errors[1:]))}" if errors else ""
+    return f"{words(found)}{model.campaign.place(found.run, VALUE)}{errs}; {what_is_done(found)}"
 
 
 def by_signal(runs: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Root mean squares over the runs of a signal, training and held-out apart."""
+    """Root mean squares over the runs of a signal that are not left out, training and held-out apart."""
     cells: dict[tuple[str, bool], list[dict[str, Any]]] = defaultdict(list)
     for run in runs:
-        cells[run["signal"], run["held_out"]].append(run)
+        if not run["left_out"]:
+            cells[run["signal"], run["held_out"]].append(run)
     return [
         {
             "signal": signal, "held_out": held_out, "runs": len(members), "unit": members[0]["unit"],
@@ -214,14 +216,16 @@ def another_reducer(model: PhysicalModel) -> Reducer | None:
     return None if named is None or named.name == model.file.reducer.name else named
 
 
-def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure]) -> list[str]:
-    """What is said before anything is fitted: another reducer, wrong angles, samples far off, a base that is too soft, conditions that leave something out."""
+def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure], runs: Sequence[Mapping[str, Any]] = ()) -> list[str]:
+    """What is said before anything is fitted: another reducer, wrong angles, shuffled rows, samples and repetitions far off, a base that is too soft,
+    conditions that leave something out; ``runs``: with what the model makes of them, where it was held against them."""
     named = another_reducer(model)
     made_of = model.file.reducer.name
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
-    angles = [found.sentence for found in angle_doubts(model.campaign)]
+    angles = [found.sentence for found in (*angle_doubts(model.campaign), *order_of_rows(Design(model.campaign)))]
     samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
-    return [*other, *angles, *samples, *too_soft(figures, model.bench), *incomplete(model.campaign)]
+    repetitions = [outlier_text(found, model, runs) for found in outlying(model.campaign.records)]
+    return [*other, *angles, *samples, *repetitions, *too_soft(figures, model.bench), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:
@@ -234,6 +238,6 @@ def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
     warnings += standing_notes(model.campaign)
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
-    if not any(r.held_out for r in model.records):
+    if not any(r.held_out and not r.left_out for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

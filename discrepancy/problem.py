@@ -69,6 +69,7 @@ class Record:
     ``far_off`` are the rows of samples that stand alone, far off: nothing counts them.
     ``of_positions``: measured at positions of the input over a turn of the cranks, of which it is the mean.
     ``closed``: a loop that was gone round before its first sample.
+    ``left_out``: it stands out against most of its repetitions, and takes no part in what is fitted, judged or averaged.
     """
 
     name: str
@@ -89,6 +90,12 @@ class Record:
     of_positions: bool = False
     closed: bool = False
     far_off: tuple[int, ...] = ()
+    left_out: bool = False
+
+    @property
+    def fitted(self) -> bool:
+        """Whether it is of the runs that parameters are fitted to."""
+        return not self.held_out and not self.left_out
 
     @property
     def counted(self) -> Mask:

@@ -3,11 +3,15 @@
 Repetitions of one condition are told by a few sizes of each run (how far it spans, its mean, how far it departs from the middle of
 all); one that is far from the median of the others, by their median absolute deviation, stands out.  Of three to five runs that
 deviation is itself hardly known: what is far is taken from the distribution that normal noise gives with so few.
+
+What stands out against most of its repetitions is left out of all that is fitted, judged or averaged.  A weight that falls as one over the distance
+would not do: where the others agree closely, a hundredth of a file that is 700 times their noise off still outweighs them.  Of two that differ nobody
+knows which is wrong: both count, and it is said.
 """
 
 from collections import defaultdict
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +25,8 @@ ONCE_IN_20 = (22.0, 6.9, 7.9, 5.5, 5.8, 4.9, 4.6, 4.4, 4.3, 4.0, 3.8, 3.8)
 ONCE_IN_200 = (223.0, 22.7, 26.9, 12.8, 13.8, 9.7, 8.1, 7.3, 6.8, 5.8, 5.2, 4.8)
 # Repetitions that agree better than this share of their size are equal (assumed: no bench promises more).
 EQUAL = 0.02
+# The same of departures, which are those of all samples together, as a share of the span.
+EQUAL_SHAPE = 1e-3
 # A size so many times off the median is no noise of a bench (assumed) if deviations say once in 20, too.
 TWICE = 2.0
 # Off the nearest other by so many times, where the others agree within the factor before (assumed): also among three.
@@ -33,8 +39,12 @@ FEW = 3
 SPIKES = 0.005
 # Few repetitions may seem to deviate by so many times what is usual without being another kind (assumed).
 USUAL = 3.0
-# A deviation of so many times the usual one still has full weight.
-FULL = 2.5
+# Times the noise of a sample, or that which is stated (of the zero, for means), within which nothing stands out, whatever the others agree to.
+STATED = 3.0
+
+# Axes along which a run may go further than another, and the share of the furthest by which they still go as far (assumed).
+REACHING, AS_FAR = {"angle", "torque", "hours", "order", "depth_angle", "speed", "load"}, 0.1
+SPAN, MEAN, DEPARTURE = "span", "mean", "departure"
 
 
 @dataclass(frozen=True)
@@ -42,7 +52,8 @@ class Outlying:
     """A run that stands out of its repetitions by one of its sizes.
 
     ``what`` names the size, ``size`` is the run's, ``low`` to ``high`` those of the others, all in ``unit`` (SI); ``times`` is its distance
-    to the median in usual deviations; ``weight`` (0 to 1) what the run should count for (Huber).
+    to the median in usual deviations, of two to each other.  ``left_out``: the others are most and agree; else it counts like them, for which of
+    them is wrong cannot be told.  ``other``: of two the other run.
     """
 
     run: str
@@ -57,10 +68,13 @@ class Outlying:
     high: float
     unit: str
     times: float
+    left_out: bool = True
+    other: str = ""
 
     @property
     def weight(self) -> float:
-        return min(1.0, FULL / self.times)
+        """What the run counts for."""
+        return 0.0 if self.left_out else 1.0
 
     @property
     def signal(self) -> str:
@@ -68,26 +82,83 @@ class Outlying:
 
 
 def outlying(records: Sequence[Record]) -> list[Outlying]:
-    """Each run that stands out, by the plainest of its sizes that does: span, mean, departure."""
-    groups: dict[Hashable, list[Record]] = defaultdict(list)
+    """Each run that stands out, by the plainest of its sizes that does: span, mean, departure; of two that are at odds the larger."""
+    groups = repetitions_of(records)
+    found = []
+    for pairs in (False, True):
+        repeated = [members for members in groups if (len(members) == 2 if pairs else len(members) > 2)]
+        usual = usual_deviations(repeated)
+        for members in repeated:
+            own = standing_out(members, usual)
+            # Where as many stand out as do not, it cannot be told who is right.
+            few = not pairs and 2 * len(own) < len(members)
+            found += [one if few else replace(one, left_out=False) for one in own]
+    # Something has to be left to fit.
+    gone = {one.run for one in found if one.left_out}
+    if all(r.held_out or r.name in gone for r in records):
+        fitted = {r.name for r in records if not r.held_out}
+        found = [replace(one, left_out=one.left_out and one.run not in fitted) for one in found]
+    return found
+
+
+def repetitions_of(records: Sequence[Record]) -> list[list[Record]]:
+    """Runs of one signal and condition that went as far: a loop to half the torque, or an inspection at other hours, is smaller and not wrong."""
+    groups: dict[Hashable, list[list[Record]]] = defaultdict(list)
     for record in records:
         tags = tuple(sorted(record.tags.items()))
-        groups[record.quantity, tags, record.condition, record.mounting, record.factors.get("direction", 1.0)].append(record)
-    repeated = [members for members in groups.values() if len(members) > 2]
-    usual = usual_deviations(repeated)
+        same = groups[record.quantity, tags, record.condition, record.mounting, record.factors.get("direction", 1.0)]
+        group = next((members for members in same if went_as_far(members[0], record)), None)
+        if group is None:
+            same.append([record])
+        else:
+            group.append(record)
+    return [members for same in groups.values() for members in same]
+
+
+def went_as_far(one: Record, other: Record) -> bool:
+    """Whether two runs cover alike what decides how large they are."""
+    if one.axes.keys() & REACHING != other.axes.keys() & REACHING:
+        return False
+    for name in one.axes.keys() & REACHING:
+        a, b = (np.asarray(r.axes[name], float)[np.isfinite(r.axes[name])] for r in (one, other))
+        if not len(a) or not len(b):
+            continue
+        # An angle counts from anywhere.
+        ends = [np.array([np.ptp(x)]) if name == "angle" else np.array([x.min(), x.max()]) for x in (a, b)]
+        if np.any(np.abs(ends[0] - ends[1]) > AS_FAR * np.abs(ends).max()):
+            return False
+    return True
+
+
+def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tuple[float, int]]) -> list[Outlying]:
+    """Of the repetitions of one condition those that stand out."""
     found: dict[str, Outlying] = {}
-    for members in repeated:
-        for what, sizes in sizes_of(members).items():
-            common = usual[members[0].quantity, what]
-            for k, times in enumerate(distances(sizes, *common)):
-                rest = np.delete(sizes, k)
-                r = members[k]
-                if times > 0.0 and r.name not in found:
-                    found[r.name] = Outlying(
-                        r.name, r.quantity, tuple(sorted(r.tags.items())), r.condition, r.replicate, len(members), what, float(sizes[k]),
-                        float(rest.min()), float(rest.max()), r.unit, float(times),
-                    )  # fmt: skip
+    sizes = sizes_of(members)
+    for what, own in sizes.items():
+        common, least = usual[members[0].quantity, what], least_of(members, what, sizes)
+        two = len(members) == 2
+        if what == DEPARTURE:
+            # Of two each departs as far.
+            far = np.zeros(2) if two else departures(own, float(np.median(sizes[SPAN])), *common)
+        else:
+            far = at_odds(own, *common, least) if two else distances(own, *common, least)
+        for k, times in enumerate(far):
+            rest = np.delete(own, k)
+            r = members[k]
+            if times > 0.0 and r.name not in found:
+                found[r.name] = Outlying(
+                    r.name, r.quantity, tuple(sorted(r.tags.items())), r.condition, r.replicate, len(members), what, float(own[k]),
+                    float(rest.min()), float(rest.max()), r.unit, float(times), other=members[1 - k].name if two else "",
+                )  # fmt: skip
+        if two and found:
+            break
     return list(found.values())
+
+
+def with_left_out(records: Sequence[Record], found: Sequence[Outlying]) -> list[Record]:
+    """The records, those marked that are ``found`` to be left out."""
+    gone = {one.run for one in found if one.left_out}
+    return [replace(record, left_out=True) if record.name in gone else record for record in records]
 
 
 def copies(records: Sequence[Record]) -> dict[str, str]:
@@ -133,13 +204,13 @@ def sizes_of(members: Sequence[Record]) -> dict[str, Floats]:
     if min(lengths) < SERIES:
         count = len(values[0]) if len(lengths) == 1 else 0
         return {f"number {j + 1}" if count > 1 else "value": np.array([v[j] for v in values]) for j in range(count)}
-    found = {"span": np.array([np.ptp(np.quantile(v, (SPIKES, 1.0 - SPIKES))) for v in values])}
+    found = {SPAN: np.array([np.ptp(np.quantile(v, (SPIKES, 1.0 - SPIKES))) for v in values])}
     free = members[0].free_zero
     if not free:
-        found["mean"] = np.array([v.mean() for v in values])
+        found[MEAN] = np.array([v.mean() for v in values])
     if len(lengths) == 1 and len(values[0]) == len(members[0].values) and same_axes(members):
-        stack = np.array([v - v.mean() for v in values] if free else values)
-        found["departure"] = np.sqrt(np.mean((stack - np.median(stack, axis=0)) ** 2, axis=1))
+        stack = np.array([v - v.mean() for v in values])
+        found[DEPARTURE] = np.sqrt(np.mean((stack - np.median(stack, axis=0)) ** 2, axis=1))
     return found
 
 
@@ -154,19 +225,38 @@ def same_axes(members: Sequence[Record]) -> bool:
 
 
 def usual_deviations(repeated: Sequence[Sequence[Record]]) -> dict[tuple[str, str], tuple[float, int]]:
-    """Of each quantity and size: the usual deviation as a share of the size, over all conditions, and from how many."""
+    """Of each quantity and size: the usual deviation as a share of the size (of a departure: of the span), over all conditions, and from how many."""
     shares: dict[tuple[str, str], list[float]] = defaultdict(list)
     for members in repeated:
-        for what, sizes in sizes_of(members).items():
+        every = sizes_of(members)
+        for what, sizes in every.items():
             middle = float(np.median(sizes))
-            shares[members[0].quantity, what] += list(np.abs(sizes - middle) / (abs(middle) or 1.0))
+            away, of = (sizes, float(np.median(every[SPAN]))) if what == DEPARTURE else (np.abs(sizes - middle), abs(middle))
+            # Of an odd number one is the median itself, which deviates from nothing.
+            shares[members[0].quantity, what] += list(np.sort(away)[len(away) % 2 :] / (of or 1.0))
     return {key: (1.4826 * float(np.median(v)), len(v)) for key, v in shares.items()}
 
 
-def distances(sizes: Floats, common: float, count: int) -> Floats:
+def least_of(members: Sequence[Record], what: str, sizes: Mapping[str, Floats]) -> float:
+    """Within so much of each other sizes agree, whatever the others do: of what their noise makes; of means also what runs span, for a zero may jump."""
+    noise = float(np.median([fast_noise(np.asarray(r.values, float)) for r in members]))
+    stated = max(noise, *(r.stated_noise or 0.0 for r in members))
+    if what != MEAN:
+        return STATED * stated
+    return max(STATED * max(stated, *(r.zero_noise for r in members)), float(np.median(sizes[SPAN])))
+
+
+def fast_noise(values: Floats) -> float:
+    """Standard deviation of what jumps from sample to sample; 0 of a few numbers."""
+    values = values[np.isfinite(values)]
+    return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / float(np.sqrt(20.0)) if len(values) >= SERIES else 0.0
+
+
+def distances(sizes: Floats, common: float, count: int, least: float = 0.0) -> Floats:
     """Of each size that stands out its distance to the median in usual deviations; 0 of the others.
 
-    ``common``: the deviation that is usual in all conditions, as a share of the size; known from ``count`` numbers.
+    ``common``: the deviation that is usual in all conditions, as a share of the size; known from ``count`` numbers.  What is within ``least`` of the
+    median never stands out.
     """
     middle = float(np.median(sizes))
     away = np.abs(sizes - middle)
@@ -181,8 +271,31 @@ def distances(sizes: Floats, common: float, count: int) -> Floats:
     if np.all(sizes > 0.0):
         factor = np.maximum(sizes / middle, middle / sizes)
         stands_out |= (times > rarely) & (factor >= TWICE)
-        stands_out |= np.array([far_from_all(sizes, k) for k in range(len(sizes))])
-    return np.where(stands_out, np.maximum(times, FULL), 0.0)
+        # Beside other conditions it has to be more than is usual there, too.
+        apart = np.array([far_from_all(sizes, k) for k in range(len(sizes))])
+        stands_out |= apart & (times > rarely) if known > len(sizes) else apart
+    return np.where(stands_out & (away > least), times, 0.0)
+
+
+def departures(sizes: Floats, span: float, common: float, count: int) -> Floats:
+    """The same of departures, which are distances themselves: as those of numbers from their median, for repetitions may differ by a drift or a gain."""
+    own, pooled = 1.4826 * float(np.median(sizes)), common * span
+    times = sizes / max(own, pooled, EQUAL_SHAPE * span, 1e-300)
+    known = float(count if own <= USUAL * pooled else len(sizes))
+    return np.where(times > float(np.interp(known, COUNTS, ONCE_IN_200)), times, 0.0)
+
+
+def at_odds(sizes: Floats, common: float, count: int, least: float) -> Floats:
+    """The same of two: of the larger, where they differ by a factor or by far more than other pairs do."""
+    low, high = np.sort(np.abs(sizes))
+    apart = float(np.ptp(sizes))
+    # From their middle two of normal noise are seen at half of what they differ by: 1/sqrt(2) of the deviation of one.
+    scale = max(np.sqrt(2.0) * common, EQUAL) * 0.5 * (low + high)
+    times = apart / np.sqrt(2.0) / max(scale, 1e-300)
+    rarely, hardly = (float(np.interp(0.5 * count, COUNTS, limits)) for limits in (ONCE_IN_20, ONCE_IN_200))
+    # Beside other pairs a factor has to be more than is usual there, too.
+    differ = times > hardly or (bool(np.all(sizes > 0.0)) and high >= THREEFOLD * low and (count <= 2 or times > rarely))
+    return np.where(np.abs(sizes) == high, times, 0.0) if differ and apart > least else np.zeros(2)
 
 
 def far_from_all(sizes: Floats, k: int) -> bool:

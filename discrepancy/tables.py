@@ -180,7 +180,7 @@ def curve_table(signal: str, indices: Sequence[int], space: Workspace, predictio
     columns = [
         Column(name, "", np.repeat(np.array(values), counts)) for name, values in (
             ("run", [r.name for r in records]), ("condition", [r.condition for r in records]), ("replicate", [r.replicate for r in records]),
-            ("held_out", [r.held_out for r in records]))
+            ("held_out", [r.held_out for r in records]), ("left_out", [r.left_out for r in records]))
     ]  # fmt: skip
     for name in dict.fromkeys(factor for r in records for factor in r.factors if factor != "direction"):
         axis = of_axis(name, campaign)

@@ -79,7 +79,7 @@ def compared(model):
     for record, y, w in zip(space.records, predictions, space.noise.whiteners):
         error, floor = float(np.sqrt(np.mean((record.values - y) ** 2))), float(np.sqrt(np.mean(w.scale**2)))
         runs.append({"run": record.name, "signal": record.quantity, "condition": record.condition, "replicate": record.replicate, "held_out": record.held_out,
-                     "unit": record.unit, "samples": y.size, "dropped": 0, "error": error, "noise_floor": floor, "ratio": error / floor})  # fmt: skip
+                     "left_out": record.left_out, "unit": record.unit, "samples": y.size, "dropped": 0, "error": error, "noise_floor": floor, "ratio": error / floor})  # fmt: skip
     return Comparison(model, doctor, runs, by_signal(runs), dict(space.base.values), warnings_of(model, []), predictions)
 
 

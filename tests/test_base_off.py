@@ -1,6 +1,6 @@
 """A base model that is a little off is no missing effect: its numbers have ranges, and the diagnosis says which is off and by how much."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate, Parameter, Record
+from discrepancy.repetitions import outlying, with_left_out
 from discrepancy.verdict import diagnose
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
@@ -73,8 +74,19 @@ def test_assumed_number_that_is_off_is_said_and_no_effect_is_named():
     (off,) = found.base_off
     assert (off.name, off.assumed, off.within) == ("stiffness", 1.0, (0.9, 1.1))
     assert off.interval[0] < 0.95 < off.interval[1]
+    # What is named is no rival of itself, and is what is shown in the model.
+    assert "base.stiffness" not in [r["name"] for r in found.rejected] and found.fits.members[0].name == "base.stiffness"
     plain = found.to_dict()["base_off"][0]
     assert plain["name"] == "stiffness" and plain["interval"] == list(off.interval)
+
+
+def test_one_bad_repetition_of_three_is_no_alarm():
+    model = bench({})
+    model.records[7] = replace(model.records[7], values=4.0 * model.records[7].values)
+    model.records = with_left_out(model.records, outlying(model.records))
+    assert [r.name for r in model.records if r.left_out] == [model.records[7].name]
+    found = inferred(model)
+    assert found.verdict == NONE and not found.base_off and len(found.fits.space.training) == len(model.records) - 1
 
 
 def test_effect_that_no_number_of_the_base_imitates_is_named():

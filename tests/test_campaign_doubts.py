@@ -7,8 +7,9 @@ import pytest
 from test_campaign_check import angle_file, campaign, codes, condition
 
 from discrepancy.campaign.check import check_campaign
-from discrepancy.campaign.doubts import jumps, path, suffices
+from discrepancy.campaign.doubts import path, suffices
 from discrepancy.campaign.load import load_campaign
+from discrepancy.campaign.row_order import jumps
 from discrepancy.compare import beforehand
 from discrepancy.doubts.plausible import fitting, scale_doubts
 from discrepancy.model_file import load_model
@@ -177,3 +178,22 @@ def test_a_comparison_begins_with_an_angle_that_cannot_be(tmp_path):
 def test_an_angle_that_falls_though_it_turned_forward_is_doubted(tmp_path, end, more, doubted):
     check = campaign(tmp_path, {"a": condition(**more)}, [f'condition = "a"\n{angle_file(tmp_path, "te.csv", end, 4000)}'])
     assert ("sense of the angle" in codes(check)) == doubted
+
+
+@pytest.mark.parametrize("turns", [1.0, 1.02 * 121])
+def test_of_shuffled_rows_only_that_is_said(tmp_path, turns):
+    """A remedy for the jumps and the sense of such an angle would spoil it; a comparison says it, too."""
+    run = angle_file(tmp_path, "te.csv", turns, 4000)
+    table = np.loadtxt(tmp_path / "te.csv", delimiter=",", skiprows=1)
+    # So that it falls by its ends, too.
+    shuffled = np.random.default_rng(3).permutation(table)
+    shuffled = shuffled[::-1] if shuffled[:500, 0].mean() < shuffled[-500:, 0].mean() else shuffled
+    np.savetxt(tmp_path / "te.csv", shuffled, delimiter=",", header="phi,te", comments="")
+    loop = loop_file(tmp_path)
+    table = np.loadtxt(tmp_path / "loop.csv", delimiter=",", skiprows=1)
+    np.savetxt(tmp_path / "loop.csv", np.random.default_rng(1).permutation(table), delimiter=",", header="T,phi", comments="")
+    check = campaign(tmp_path, {"a": condition()}, [f'condition = "a"\n{run}', loop])
+    others = {"angle jumps", "sense of the angle", "rate of the angle", "uneven sampling", "loop the wrong way round"}
+    assert sum(f.code == "rows out of order" for f in check.findings) == 2 and not others & codes(check)
+    said = beforehand(PhysicalModel(load_model("RV20E-121-rigid"), load_campaign(tmp_path)), [])
+    assert sum("jumps back and forth" in text for text in said) == 2 and not any("falls" in text for text in said)

@@ -132,6 +132,16 @@ def test_readings_of_a_campaign():
     assert inspections(campaign, limit, noise="0.6 arcsec").readings[0].noise == pytest.approx(0.01)
 
 
+def test_a_reading_that_stands_out_of_its_repetitions_is_left_out_and_said():
+    campaign = load_campaign(TEST)
+    last = max((r for r in campaign.records if not r.held_out and r.quantity == "lost_motion"), key=lambda r: float(np.max(r.axes.get("hours", r.factors.get("hours")))))
+    size = len(last.values)
+    again = [replace(last, name=f"again_{k}", replicate=k + 2, values=last.values * (1.001 if k < 3 else 6.0)) for k in range(4)]
+    found = inspections(replace(campaign, records=(*campaign.records, *again)), limit_of("lost_motion=1arcmin"))
+    assert [(o.run, o.left_out) for o in found.outlying] == [("again_3", True)] and len(found.readings) == 4 + 3 * size
+    assert max(r.value for r in found.readings) < 1.0
+
+
 def test_command(capsys):
     assert main(["forecast", str(TEST), "--limit", "lost_motion=1arcmin", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)

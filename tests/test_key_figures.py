@@ -14,6 +14,7 @@ from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.prediction import bench as virtual
 from discrepancy.prediction.orders import ROLLERS, named_orders
 from discrepancy.problem import Candidate, Parameter, Record
+from discrepancy.repetitions import outlying, with_left_out
 from reducers.reducer import load_reducer
 from rv_plant import supports
 from rvwear import hysteresis
@@ -221,3 +222,35 @@ def test_a_single_loop_typed_by_hand_has_the_noise_of_its_samples_however_wrong_
     assert by_name[STIFFNESS].measured == pytest.approx(1.0 / 4e-6, rel=0.03)
     assert 0.001 < by_name[STIFFNESS].noise / by_name[STIFFNESS].measured < 0.04
     assert by_name[WIDTH].off > 10.0 and by_name[LOST_MOTION].noise < 2.5 * sigma
+
+
+@pytest.mark.parametrize("scatter", [0.001, 0.06])
+def test_a_run_that_is_left_out_is_in_no_mean_and_no_noise_of_figures(scatter):
+    """One loop of five was four times as large: the mean of the five stood beside the noise of the other four, 25 to 150 times it off."""
+    rng = np.random.default_rng(4)
+    sizes = 1.0 + scatter * rng.standard_normal(5)
+    sizes[2] *= 4.0
+    records = [Record(f"l{k}", "hysteresis", "rad", "lk", k + 1, s * loop(WAY) + 1e-7 * rng.standard_normal(len(WAY)), {"torque": WAY}, {"load": 0.0})
+               for k, s in enumerate(sizes)]  # fmt: skip
+    space = Workspace(Bench(with_left_out(records, outlying(records))))
+    assert space.training == [0, 1, 3, 4] and not space.held_out
+    space.fit_base()
+    figures = {f.name: f for f in key_figures(space, space.predictions({}, list(range(5))), {}, RATED)}
+    assert figures[STIFFNESS].runs == 4 and figures[STIFFNESS].measured == pytest.approx(np.mean(1.0 / (2e-6 * sizes[[0, 1, 3, 4]])), rel=1e-3)
+    assert figures[STIFFNESS].noise < 1.5 * scatter / 2e-6
+
+
+@pytest.mark.parametrize(("counts", "wrong", "most"), [((2, 2, 2, 2), 3.0, 1.5), ((5,), 1.2, 1.5)])
+def test_repetitions_at_odds_that_all_count_are_noise_of_their_mean(counts, wrong, most):
+    """A noise that leaves out the run that the mean has in it made 28 times the noise of it."""
+    rng = np.random.default_rng(4)
+    records = []
+    for c, count in enumerate(counts):
+        for k in range(count):
+            size = (1.0 + 0.01 * rng.standard_normal()) * (wrong if (c, k) == (0, 1) else 1.0)
+            records.append(Record(f"l{c}{k}", "hysteresis", "rad", f"c{c}", k + 1, size * loop(WAY), {"torque": WAY}, {"load": 0.0}))
+    space = Workspace(Bench(with_left_out(records, outlying(records))))
+    assert len(space.training) == len(records)
+    space.fit_base()
+    off = next(f for f in key_figures(space, [loop(WAY)] * len(records), {}, RATED) if f.name == STIFFNESS and f.condition == "c0")
+    assert 0.3 < abs(off.off) < most and off.dof == counts[0] - 1

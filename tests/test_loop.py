@@ -13,6 +13,7 @@ from discrepancy.experiment.next_run import proposal_for
 from discrepancy.extend import DID_NOT_HELP, HELPED, NOT_PROVEN, extend
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.model_file import extended_reducer, load_model, save_model
+from discrepancy.page.comparison import page as page_of_comparison
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Parameter, Record
 from discrepancy.verdict import diagnose
@@ -206,7 +207,16 @@ def test_repetition_that_stands_out_is_shown_by_compare(file):
             for k, r in zip((4, 5), [r for r in campaign.records if r.quantity == "lost_motion"])]
     comparison = compare(file, replace(campaign, records=(*campaign.records, *more)))
     (found,) = comparison.outlying
-    assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] < 0.5
+    assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] == 0.0
+    said = next(text for text in comparison.warnings if "run lm5" in text)
+    assert "left out of fit, errors, key figures and charts, for its repetitions agree without it" in said
+    drawn = page_of_comparison(comparison)
+    assert "left out: lm5" in drawn.conditions and f"of {len(comparison.runs) - 1} runs err" in drawn.finding
+    # It takes no part in the errors of its signal either.
+    rows = {r["run"]: r for r in comparison.runs}
+    assert rows["lm5"]["left_out"] and rows["lm5"]["ratio"] > 20.0
+    assert sum(r["runs"] for r in comparison.signals if r["signal"] == "lost_motion") == sum(r["signal"] == "lost_motion" for r in comparison.runs) - 1
+    assert all(r["ratio"] < 2.0 for r in comparison.signals if r["signal"] == "lost_motion")
     assert any("run lm5" in text and "the model errs there by" in text and "arcmin" in text for text in comparison.warnings)
 
 

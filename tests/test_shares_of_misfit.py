@@ -52,7 +52,7 @@ def groups():
 
 
 def compared(signals):
-    rows = [{"signal": name, "held_out": False, "ratio": ratio} for name, ratio in signals]
+    rows = [{"signal": name, "held_out": False, "left_out": False, "ratio": ratio} for name, ratio in signals]
     return SimpleNamespace(signals=rows, runs=rows, diagnostician=SimpleNamespace(localisation=Localisation(groups(), {}, 0.004)))
 
 
@@ -77,7 +77,7 @@ def test_the_largest_share_stands_first(capsys):
 
 def test_what_is_held_out_is_counted_in_runs_and_conditions():
     """"16 runs at 8 conditions, 2 of them held out" was read as two conditions: it was two runs of one."""
-    result = SimpleNamespace(model=SimpleNamespace(file=SimpleNamespace(effects={})))
+    result = SimpleNamespace(model=SimpleNamespace(file=SimpleNamespace(effects={}), records=[]))
     runs = [SimpleNamespace(record=SimpleNamespace(condition=name, held_out=held)) for name, held in (("a", False), ("a", False), ("b", True), ("b", True))]
     assert comparison.conditions(result, runs) == "4 runs at 2 conditions; held out: 2 runs at 1 condition; model without further effects"
     assert comparison.conditions(result, runs[:2]).startswith("2 runs at 1 condition; held out: none;")

@@ -17,7 +17,7 @@ def test_look_has_the_errors_of_a_signal_as_compare_has_them():
     from discrepancy.compare import by_signal
     from workbench.look import errors_of
 
-    runs = [{"signal": signal, "held_out": held_out, "unit": "rad", "error": error, "noise_floor": floor}
+    runs = [{"signal": signal, "held_out": held_out, "left_out": False, "unit": "rad", "error": error, "noise_floor": floor}
             for signal, held_out, error, floor in (("te", True, 6.0, 2.0), ("te", False, 3.0, 1.0), ("te", False, 4.0, 7.0), ("loop", False, 1.0, 1.0))]  # fmt: skip
     assert [(error["held_out"], round(error["ratio"], 6)) for error in errors_of("te", by_signal(runs))] == [(False, 0.707107), (True, 3.0)]
 

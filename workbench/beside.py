@@ -93,7 +93,7 @@ class Beside:
 
     def suiting(self, tried: Mapping[str, float]) -> dict[str, float]:
         """Zeros of angles beside what is tried, where others leave clearly less of the runs that tell them than those that stand."""
-        errors = [record for record in reversed(self.model.records) if record.quantity == ERROR and "angle" in record.axes]
+        errors = [record for record in reversed(self.model.records) if record.quantity == ERROR and "angle" in record.axes and not record.left_out]
         telling = {name: record for record in errors for name in places_of_zero(record) if name in self.model.zeros}
         if not telling:
             return {}

@@ -105,7 +105,7 @@ class Trial:
                 })  # fmt: skip
             numbers = [base_number(c, tables_of(found)) for c in found.candidates if c.part == BASE]
             runs = [{"run": r.name, "signal": stream_of(r), "title": amounts.signal_title(stream_of(r)), "condition": r.condition, "replicate": r.replicate,
-                     "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records]  # fmt: skip
+                     "held_out": r.held_out, "samples": len(r.values), "axis": axis_name(r)} for r in found.records if not r.left_out]  # fmt: skip
             return {"model": model, "effects": present(found) + effects, "numbers": numbers, "runs": runs}
 
     def curve(
@@ -194,7 +194,7 @@ def changes_of(beside: Beside, values: Mapping[str, float], in_look: bool) -> li
     seen = set()
     for record in found.records:
         key = (stream_of(record), record.condition, record.mounting)
-        if key in seen:
+        if key in seen or record.left_out:
             continue
         seen.add(key)
         roughly = is_worn(record)

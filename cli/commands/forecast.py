@@ -27,6 +27,7 @@ def add_commands(sub: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 def run_forecast(options: argparse.Namespace) -> int:
     from cli.screen import json_text
     from discrepancy.campaign.load import load_campaign
+    from discrepancy.campaign.repetition_words import what_is_done, words
     from discrepancy.forecast.contradictions import contradictions
     from discrepancy.forecast.forecast import narrowing
     from discrepancy.forecast.readings import Inspections, inspections, limit_of
@@ -37,10 +38,11 @@ def run_forecast(options: argparse.Namespace) -> int:
     found = inspections(load_campaign(options.campaign, options.data), limit, options.condition, options.noise)
     if options.until is not None:
         every = sorted(found.readings + found.held_out, key=lambda r: r.hours)
-        found = Inspections([r for r in every if r.hours <= options.until], [r for r in every if r.hours > options.until], found.condition)
+        found = Inspections([r for r in every if r.hours <= options.until], [r for r in every if r.hours > options.until], found.condition, found.outlying)
     asked = sorted({r.hours for r in found.held_out})
     forecasts = narrowing(found.readings, limit.value, asked=asked)
-    doubts = [one.text for one in contradictions(found.readings, forecasts[-1], limit.unit)]
+    doubts = [f"{words(one)}; {what_is_done(one)}" for one in found.outlying]
+    doubts += [one.text for one in contradictions(found.readings, forecasts[-1], limit.unit)]
     if options.json:
         json_text({"limit": vars(limit), "condition": found.condition, "forecasts": [f.as_json() for f in forecasts], "doubts": doubts,
                    "unused": [vars(r) for r in found.held_out], "units": units_of(limit)})

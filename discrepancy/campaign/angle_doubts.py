@@ -10,6 +10,7 @@ from discrepancy.campaign.design import Design, turns
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.row_order import is_shuffled
 from discrepancy.problem import Record
 
 # Times the stated speed from which on a rate is doubted (either way), and how near to the ratio it speaks for the input.
@@ -31,7 +32,7 @@ def rates_of_angles(design: Design) -> Iterator[Finding]:
     campaign, seen = design.campaign, set[tuple[str, str]]()
     for record in campaign.records:
         source, speed = campaign.source(record.name, "angle"), output_speed(record, campaign)
-        if source is None or speed <= 0.0 or "angle" not in record.axes:
+        if source is None or speed <= 0.0 or "angle" not in record.axes or is_shuffled(record, "angle"):
             continue
         times, text = with_time(record, speed) if "time" in record.axes else without_time(record, speed, campaign)
         column = source.column.removeprefix("column ")
@@ -51,7 +52,8 @@ def senses_of_angles(design: Design) -> Iterator[Finding]:
         if record.quantity != "transmission_error" or source is None or len(angle) < FEW or record.factors.get("direction", 1.0) < 0.0:
             continue
         ends = float(np.mean(angle[-(len(angle) // FEW) :]) - np.mean(angle[: len(angle) // FEW]))
-        if ends >= 0.0 or source.column in seen:
+        # Of shuffled rows the ends are any: what is wrong with them is said of their order.
+        if ends >= 0.0 or source.column in seen or is_shuffled(record, "angle"):
             continue
         seen.add(source.column)
         stated = "is forward" if campaign.conditions[record.condition].direction_stated else "states no direction and so is forward"

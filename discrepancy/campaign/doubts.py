@@ -13,6 +13,7 @@ from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.loop_doubts import ways_round
 from discrepancy.campaign.model import Campaign, Source
 from discrepancy.campaign.quantities import VALUE
+from discrepancy.campaign.row_order import jumps_of
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
 from fmu_src.units import conversion
@@ -21,10 +22,6 @@ from reducers.rated import MOST_RATED
 # Share of the rated torque that a loop reaches at least if its unit is right, and the most that benches apply.
 USUAL_REACH = (0.1, 2.5)
 TORQUE_UNITS = ("N.m", "N.mm", "N.cm", "kgf.cm", "lbf.in", "kN.m")
-# Of the whole range: a step that is a jump; and how many times the usual step it must be.
-JUMP, MANY_STEPS = 0.1, 10.0
-# Samples below which nothing is said of their order, and torques that a loop may stop at.
-FEW, STAIRS = 16, 6
 # Samples of the shortest wave that show it, with a margin above the two that are needed at least.
 SAMPLES_PER_WAVE = 2.5
 # Of the largest torque: steps that show play (from -3 % to +3 %), curvature and the loop's width.
@@ -76,10 +73,7 @@ def fitting_unit(largest: float, rated: float, source: Source) -> str:
 
 def order_of_rows(design: Design) -> Iterator[Finding]:
     for record in design.campaign.records:
-        for name in ("angle", "torque", "order", "depth_angle"):
-            at = jumps(np.asarray(record.axes.get(name, np.zeros(0)), float), name)
-            if not len(at):
-                continue
+        for name, at in jumps_of(record).items():
             source = source_of(design.campaign, record, name)
             first = int(at[0])
             before, after = (float(v) / source.factor for v in record.axes[name][first : first + 2])
@@ -90,25 +84,6 @@ def order_of_rows(design: Design) -> Iterator[Finding]:
                 f" first from {before:.6g} to {after:.6g}{unit} at sample {first + 2}",
                 "export the rows in the order in which they were measured (sort by time); split repetitions by where = { ... }",
             )  # fmt: skip
-
-
-def jumps(axis: Floats, name: str) -> np.ndarray:
-    """Steps that leap back and forth; empty for an axis that is passed in order, loops and stairs of torque included."""
-    steps, size = np.diff(axis), float(np.ptp(axis)) if len(axis) else 0.0
-    if len(axis) < FEW or size == 0.0:
-        return np.zeros(0, int)
-    lengths = np.abs(steps)
-    turned = float(np.mean(steps[1:] * steps[:-1] < 0.0))
-    if turned > 0.5 and float(lengths.mean()) > JUMP * size:
-        return np.flatnonzero(lengths > JUMP * size)
-    at = np.flatnonzero(lengths > max(JUMP * size, MANY_STEPS * float(np.median(lengths))))
-    # An encoder that starts anew at each turn is another fault, and a bench may hold a few torques in turn.
-    wraps = name == "angle" and abs(float(lengths.max()) - 2.0 * math.pi) < 0.05 * math.pi
-    levels = len(np.unique(np.round(axis[at + 1] / (0.02 * size))))
-    if len(at) < 3 or wraps or (name == "torque" and levels < STAIRS):
-        return np.zeros(0, int)
-    back_and_forth = np.mean(steps[at][1:] * steps[at][:-1] < 0.0) >= 0.4
-    return at if back_and_forth else np.zeros(0, int)
 
 
 def needless_samples(design: Design) -> Iterator[Finding]:

@@ -9,7 +9,8 @@ import numpy as np
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
 from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
-from discrepancy.campaign.repetition_words import copied_words, words
+from discrepancy.campaign.repetition_words import copied_words, what_is_done, words
+from discrepancy.campaign.row_order import is_shuffled
 from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.outlying_samples import outlying_samples
@@ -215,7 +216,7 @@ def rows(design: Design) -> Iterator[Finding]:
             )  # fmt: skip
         for name in ("time", "angle"):
             axis = record.axes.get(name)
-            if axis is None or len(axis) < 3:
+            if axis is None or len(axis) < 3 or is_shuffled(record, name):
                 continue
             if name == "angle" and np.abs(np.diff(axis)).max() > 1.9 * np.pi:
                 yield Finding(
@@ -241,8 +242,7 @@ def rows(design: Design) -> Iterator[Finding]:
 def repetitions(design: Design) -> Iterator[Finding]:
     for found in outlying(design.campaign.records):
         yield Finding(
-            WARNING, "outlying repetition", words(found) + design.campaign.place(found.run, VALUE),
-            "look at it: clamping, a slip, a wrong file or unit; leave it out or measure it again",
+            WARNING, "outlying repetition", words(found) + design.campaign.place(found.run, VALUE), what_is_done(found)
         )  # fmt: skip
 
 

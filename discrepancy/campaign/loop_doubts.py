@@ -9,6 +9,7 @@ from discrepancy.campaign.design import Design
 from discrepancy.campaign.findings import WARNING, Finding
 from discrepancy.campaign.model import Source
 from discrepancy.campaign.quantities import VALUE
+from discrepancy.campaign.row_order import is_shuffled
 from fmu_src.arrays import Floats
 
 # Samples below which nothing is said; share of the largest torque within which the two ways are held against each other, in so many
@@ -25,7 +26,7 @@ def ways_round(design: Design) -> Iterator[Finding]:
     campaign = design.campaign
     for record in campaign.of("hysteresis"):
         torque, turning = np.asarray(record.axes.get("torque", np.zeros(0)), float), np.asarray(record.values, float)
-        if len(torque) < FEW or not (np.ptp(torque) > 0.0 and np.ptp(turning) > 0.0):
+        if len(torque) < FEW or is_shuffled(record, "torque") or not (np.ptp(torque) > 0.0 and np.ptp(turning) > 0.0):
             continue
         place = campaign.place(record.name, VALUE)
         if np.corrcoef(torque, turning)[0, 1] < CLEAR_SLOPE:

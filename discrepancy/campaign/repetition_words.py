@@ -10,6 +10,7 @@ from fmu_src.units import conversion
 WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
 # Sets of equal runs that are named.
 MOST_ALIKE = 4
+LOOK = "look for the cause: clamping, a slip, a wrong file or unit; measure it again"
 COPY = "a copy is no repetition, it counts once and says nothing of the noise"
 
 
@@ -20,12 +21,21 @@ def words(found: Outlying) -> str:
     offset = offset if found.what in ("mean", "value") else 0.0
     size, low, high = (readable(factor * v + offset) for v in (found.size, found.low, found.high))
     others = low if low == high else f"{low} to {high}"
+    rest = f"the other, {found.other}, {others}" if found.other else f"the others {others}"
     verb = WORDS.get(found.what, found.what + " is {}")
     unit = "" if q.usual_unit == "1" else f" {q.usual_unit}"
     return (
         f"run {found.run} (replicate {found.replicate}, of {found.count} repetitions of {found.signal} at {found.condition}) "
-        f"{verb.format(size + unit)}, the others {others}"
+        f"{verb.format(size + unit)}, {rest}"
     )
+
+
+def what_is_done(found: Outlying) -> str:
+    """Whether the run takes part, and what to do."""
+    if found.left_out:
+        return f"left out of fit, errors, key figures and charts, for its repetitions agree without it; {LOOK}"
+    many = "the two" if found.count == 2 else "them, of which as many stand out as do not,"
+    return f"which of {many} is wrong cannot be told, so that all count, as noise that hides what is smaller; {LOOK}"
 
 
 def copied_words(copies: Mapping[str, str]) -> tuple[str, str]:

@@ -230,7 +230,7 @@ def open_questions(answer: Answer, campaign: Campaign) -> list[Asked]:
     asked = []
     unplaced = set(without_place(answer.model, answer.diagnosis))
     for (signal, name), size in left.items():
-        runs = sum(stream_of(r) == signal and not r.held_out for r in answer.model.records)
+        runs = sum(stream_of(r) == signal and r.fitted for r in answer.model.records)
         expected = REPEATS * size / runs if size and runs else None
         missing = dict.fromkeys(r.condition for r in answer.model.records if stream_of(r) == signal and is_unplaced(r) and r.condition in unplaced)
         if name == "everywhere" and missing:

@@ -37,6 +37,8 @@ SOFTER, CLEARLY = 1.5, 5.0
 SPRINGS, FRICTION, PLAY = ("support_compliance",), ("stribeck_friction", "support_hysteresis", "drive_friction"), ("first_stage_play", "output_play")
 # What a model's figure is read from.
 CURVE = "its curve"
+# Repetitions of one condition that differ by so many times what is usual have a noise of their own (assumed; of two, normal noise does it once in 300).
+APART = 3.0
 # Orders higher than this share of what the samples resolve are not read.
 RESOLVED = 0.9
 
@@ -81,10 +83,11 @@ class KeyFigure:
 
 
 def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping[str, Sequence[float]], rated: float) -> list[KeyFigure]:
-    """All figures of all signals; ``predictions`` by record, ``rated`` torque [N m]."""
+    """All figures of all signals, without runs that are left out; ``predictions`` by record, ``rated`` torque [N m]."""
     groups: dict[tuple[str, str], list[int]] = defaultdict(list)
     for i, record in enumerate(space.records):
-        groups[stream_of(record), record.condition].append(i)
+        if not record.left_out:
+            groups[stream_of(record), record.condition].append(i)
     readings = {key: [reading_of(space.records[i], orders, rated) for i in indices] for key, indices in groups.items()}
     measured = {key: [r(np.asarray(space.records[i].values, float)) for i, r in zip(groups[key], own)] for key, own in readings.items()}
     spread, freedom = between_runs(measured), repetitions_beyond(measured)
@@ -103,6 +106,9 @@ def key_figures(space: Workspace, predictions: Sequence[Floats], orders: Mapping
             by_samples = np.array([[d.get(name, np.nan) for d in read] for read in drawn])
             drawn_noise, between = float(np.nanstd(by_samples[0])), spread.get((signal, name), 0.0)
             noise, dof = (between, freedom[signal, name]) if between > drawn_noise else (drawn_noise, DRAWS - 1)
+            # Repetitions that differ by far more than is usual, none of them left out: of their mean nothing more is known.
+            if len(values) > 1 and (apart := float(np.sqrt(np.mean(deviations_of(values) ** 2)))) > APART * noise:
+                noise, dof = apart, len(values) - 1
             curve = float(np.nanmean([r(predictions[i]).get(name, np.nan) for i, r in zip(indices, reading)]))
             model, alone = (curve, None) if name in PLAIN else (float(np.nanmean(by_samples[1])), curve)
             found.append(KeyFigure(signal, condition, name, PLAIN.get(name, "rad"), float(np.mean(values)), model,
@@ -133,10 +139,16 @@ def between_runs(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]
     deviations: dict[tuple[str, str], list[float]] = defaultdict(list)
     for (signal, _), runs in measured.items():
         for name in runs[0] if len(runs) > 1 else ():
-            values = np.array([run[name] for run in runs if name in run])
+            values = [run[name] for run in runs if name in run]
             if len(values) > 1:
-                deviations[signal, name] += list((values - np.median(values)) * np.sqrt(len(values) / (len(values) - 1)))
+                deviations[signal, name] += list(deviations_of(values))
     return {key: robust(np.array(v)) for key, v in deviations.items()}
+
+
+def deviations_of(values: Sequence[float]) -> Floats:
+    """Of repetitions from their median, scaled to the deviation of one run."""
+    found: Floats = (np.asarray(values) - np.median(values)) * np.sqrt(len(values) / (len(values) - 1))
+    return found
 
 
 def repetitions_beyond(measured: Mapping[tuple[str, str], Sequence[Mapping[str, float]]]) -> dict[tuple[str, str], int]:

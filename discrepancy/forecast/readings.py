@@ -11,6 +11,7 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.forecast.forecast import Reading
 from discrepancy.problem import Record
+from discrepancy.repetitions import Outlying, outlying, with_left_out
 from discrepancy.scales import of_axis, unit_of_axis
 from fmu_src.faults import InputFault, nearest
 
@@ -30,11 +31,12 @@ class Limit:
 
 @dataclass(frozen=True)
 class Inspections:
-    """Readings that a forecast rests on, and those that were held out, in the limit's unit."""
+    """Readings that a forecast rests on, and those that were held out, in the limit's unit; ``outlying`` runs are in neither where they are left out."""
 
     readings: list[Reading]
     held_out: list[Reading]
     condition: str
+    outlying: tuple[Outlying, ...] = ()
 
 
 def limit_of(text: str) -> Limit:
@@ -60,6 +62,8 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
     if chosen not in named:
         raise InputFault(f"{campaign.folder}: {limit.quantity} was read at {', '.join(named)}; say which with --condition")
     records = [r for r in records if without_hours(r, campaign) == chosen]
+    apart = tuple(outlying(records))
+    records = [r for r in with_left_out(records, apart) if not r.left_out]
     factor = to_si(limit.unit, QUANTITIES[limit.quantity].unit, "")[0]
     stated = amount(noise, QUANTITIES[limit.quantity].unit, "--noise") if noise else None
     if stated is not None and not stated > 0.0:
@@ -74,7 +78,7 @@ def inspections(campaign: Campaign, limit: Limit, condition: str | None = None, 
         hours = np.broadcast_to(np.asarray(r.axes.get("hours", r.factors.get("hours", 0.0)), np.float64), len(r.values)) / HOUR
         found[r.held_out] += [Reading(float(t), float(v) / factor, own / factor) for t, v in zip(hours, r.values) if math.isfinite(v)]
     used, held_out = (sorted(found[held], key=lambda r: r.hours) for held in (False, True))
-    return Inspections(used, held_out, chosen)
+    return Inspections(used, held_out, chosen, apart)
 
 
 def without_hours(record: Record, campaign: Campaign) -> str:

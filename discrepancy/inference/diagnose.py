@@ -214,6 +214,8 @@ class Diagnostician:
         named = sum(c.part != BASE for c in final.candidates)
         verdict, reason = decide(True, by_place, named, len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
         if verdict == BASE_OFF:
+            # What is named is shown in the model, not an effect that fits a little better in its place.
+            members = [final, *(m for m in members if m is not final)]
             others = [m.name for m in members if m.candidates[0].part != BASE]
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:

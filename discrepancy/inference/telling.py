@@ -94,7 +94,8 @@ class Teller:
                 warnings += grown(c.name, before, after)
         if several:
             effects.sort(key=lambda e: -e.gain)
-        names = {e.name for e in effects}
+        # A number of the base that is named is no rival either.
+        names = {e.name for e in effects} | {c.name for m in members for c in m.candidates if c.part == BASE}
         rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)
         for r in rivals:

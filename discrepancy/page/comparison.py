@@ -28,13 +28,15 @@ def page(result: Comparison) -> Page:
     space = result.diagnostician.space
     runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
     orders, no_orders = order_figures(runs)
+    gone = ", ".join(left_out(result))
+    but = f" but {gone}, left out," if gone else ""
     # What one asks first: numbers, then curves, then maps.
     sections = [
         *figures_section(result.figures, result.model.file, bool(result.nuisances), result.of_chance),
         Section(
             "runs",
             "Measured against predicted",
-            " ".join(["Every run of the campaign beside the model's prediction of it.", *no_orders]),
+            " ".join([f"Every run of the campaign{but} beside the model's prediction of it.", *no_orders]),
             run_figures("run", runs) + orders,
         ),
         errors(result),
@@ -68,9 +70,16 @@ def conditions(result: Comparison | Answer, runs: list[Run]) -> str:
     of_them = f"{counted(len(held), 'run')} at {counted(len({record.condition for record in held}), 'condition')}" if held else "none"
     count = len({run.record.condition for run in runs})
     effects = ", ".join(map(effect_words, result.model.file.effects))
-    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}; held out: {of_them}; " + (
+    gone = ", ".join(left_out(result))
+    left = f"left out: {gone}; " if gone else ""
+    return f"{counted(len(runs), 'run')} at {counted(count, 'condition')}; held out: {of_them}; {left}" + (
         f"model with {effects}" if effects else "model without further effects"
     )
+
+
+def left_out(result: Comparison | Answer) -> list[str]:
+    """Repetitions that stand out: no run of the page."""
+    return [record.name for record in result.model.records if record.left_out]
 
 
 def finding(result: Comparison) -> str:
@@ -79,9 +88,10 @@ def finding(result: Comparison) -> str:
     worst = max(result.signals, key=lambda s: s["ratio"], default=None)
     if worst is None:
         return "Nothing that was measured can be predicted by this model."
-    off = [r for r in result.runs if r["ratio"] > CONSPICUOUS]
+    counting = [r for r in result.runs if not r["left_out"]]
+    off = [r for r in counting if r["ratio"] > CONSPICUOUS]
     start = (
-        f"{len(off)} of {len(result.runs)} runs err by more than {CONSPICUOUS:g} times their noise; the worst "
+        f"{len(off)} of {len(counting)} runs err by more than {CONSPICUOUS:g} times their noise; the worst "
         f"signal is {place(worst)} with {number(worst['ratio'])} times its noise."
     )
     if not found:
@@ -127,7 +137,8 @@ def errors(result: Comparison) -> Section:
     """Table per signal, heat map per signal and condition."""
     cells: dict[tuple[str, str], list[float]] = {}
     for run in result.runs:
-        cells.setdefault((run["signal"], run["condition"]), []).append(run["ratio"])
+        if not run["left_out"]:
+            cells.setdefault((run["signal"], run["condition"]), []).append(run["ratio"])
     held = {run["condition"] for run in result.runs if run["held_out"]}
     heat = maps.grid(
         "Error over noise by signal and condition",

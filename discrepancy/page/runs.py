@@ -60,9 +60,11 @@ def axis_of(run: Run) -> str:
 
 
 def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list[Floats] | None = None) -> list[Run]:
-    """All runs; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
+    """All runs but those that are left out; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
+        if record.left_out:
+            continue
         # What stands far off is drawn with the noise of the others.
         kept = whitener.kept | ~record.counted
         noise = np.full(kept.size, float(np.median(whitener.scale)) if whitener.scale.size else 0.0)

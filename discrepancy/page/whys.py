@@ -95,7 +95,7 @@ def of_samples(answer: Answer, signal: str, row: Mapping[str, float], unused: bo
     space = answer.diagnosis.fits.space
     unit = next((r.unit for r in space.records if stream_of(r) == signal), "1")
     kind = "held-out run" if unused else "fitted run"
-    runs = sum(stream_of(r) == signal and r.held_out == unused for r in space.records)
+    runs = sum(stream_of(r) == signal and r.held_out == unused and not r.left_out for r in space.records)
     before, after, floor = (amounts.text(row[key], unit, signal) for key in ("before", "after", "floor"))
     return Why(
         "root mean square of measured − predicted over all samples, over that of the noise: the number that a comparison shows",
@@ -134,10 +134,10 @@ def of_verdict(answer: Answer) -> Why:
     fitted = [r for r in turned_down(answer) if r["chi2_difference"] is not None]
     nearest = min(fitted, key=lambda r: r["chi2_difference"], default=None)
     rival = f"nearest rival: {effect_title(nearest['name'])}, {nearest['reason']}" if nearest else "no rival was near enough to be fitted"
-    space = answer.diagnosis.fits.space
+    runs = [r for r in answer.diagnosis.fits.space.records if not r.left_out]
     return Why(
         "score tests of every effect against what the base model leaves, fits in earnest of the nearest, judged on unused runs",
-        f"{counted(len(space.records), 'run')} at {counted(len({r.condition for r in space.records}), 'condition')}; {rival}",
+        f"{counted(len(runs), 'run')} at {counted(len({r.condition for r in runs}), 'condition')}; {rival}",
         f"rivals are told apart from {USED.margin:g} of chi-square (20 to 1 in likelihood)",
     )
 

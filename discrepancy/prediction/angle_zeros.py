@@ -143,7 +143,7 @@ def telling(bench: Bench, records: Sequence[Record]) -> dict[str, Record]:
     """By zero the record that tells it, with as many samples as that takes: the pattern hardly depends on the condition."""
     first: dict[str, Record] = {}
     for record in records:
-        if tells(record):
+        if tells(record) and not record.left_out:
             first.setdefault(angle_zero(record), record)
     bridges = {name: bridged(record) for name, record in first.items()}
     return {name: fewer(r, turns_of(bench, r)) if r.quantity == ERROR else r for name, r in bridges.items()}

@@ -155,7 +155,7 @@ def scatter_of_orders(records: Sequence[Record]) -> float:
     """Standard deviation of the numbers of orders between runs that repeat each other; 0 where none do."""
     alike: dict[Hashable, list[Floats]] = {}
     for r in records:
-        if r.quantity == ORDERS:
+        if r.quantity == ORDERS and not r.left_out:
             alike.setdefault((r.condition, r.mounting, r.factors.get("direction"), np.asarray(r.axes["order"]).tobytes()), []).append(r.values)
     repeated = [np.array(runs) for runs in alike.values() if len(runs) > 1]
     squares = [float(np.sum((runs - runs.mean(axis=0)) ** 2)) for runs in repeated]

@@ -30,7 +30,7 @@ class LockedWaves:
         # One of each condition tells: they were not turned between.
         self.loops: dict[str, dict[str, Record]] = {}
         for record in records:
-            if angle_zero(record) in self.names and record.quantity == "hysteresis" and LOCKED_AT in record.factors and not record.held_out:
+            if angle_zero(record) in self.names and record.quantity == "hysteresis" and LOCKED_AT in record.factors and record.fitted:
                 self.loops.setdefault(angle_zero(record), {}).setdefault(record.condition, fewer_samples(record))
         self.found: dict[Effects, dict[str, int]] = {}
 

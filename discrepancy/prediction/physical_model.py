@@ -37,6 +37,7 @@ from discrepancy.prediction.placed_beside import PlacedBeside
 from discrepancy.prediction.stations import shared_stations
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
+from discrepancy.repetitions import outlying, with_left_out
 from fmu_src.arrays import Floats
 from fmu_src.faults import RunFault
 from fmu_src.threads import Threads
@@ -75,7 +76,9 @@ class PhysicalModel(PlacedBeside):
                  jobs: int = 1, fmus: Path | None = None):
         # An FMU is stepped by one.
         self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
-        self.records: list[Record] = marked([defined(r, campaign) for r in campaign.records if r.quantity in PREDICTED])
+        shown = [r for r in campaign.records if r.quantity in PREDICTED]
+        # Told by all that was measured, as a check of the campaign does.
+        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), outlying(shown))
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         self.bench = bench_of(model, present, fmus)
@@ -94,7 +97,7 @@ class PhysicalModel(PlacedBeside):
             self.bench.largest_sweep = WHOLE_SWEEP
         self.rough_bench = self.bench.rougher
         self.chain = Chain(self.bench, present)
-        self.sizes = {q: typical_size([r for r in self.records if r.quantity == q]) for q in {r.quantity for r in self.records}}
+        self.sizes = {q: typical_size([r for r in self.records if r.quantity == q and not r.left_out]) for q in {r.quantity for r in self.records}}
         if ORDERS in self.sizes:
             self.sizes.setdefault(ERROR, self.sizes[ORDERS])
         nuisances = [n for n in campaign.nuisances if n.parameter.name != ENCODER_PHASE]

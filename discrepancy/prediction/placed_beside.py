@@ -138,7 +138,7 @@ class PlacedBeside:
                 there = {name: further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave}
                 turned = {direction: every[direction] + 2.0 * np.pi * k / self.discs for direction in directions}
                 found += [there, there | turned] if turned else [there]
-        errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and not r.held_out and angle_zero(r) in self.zeros]
+        errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and r.fitted and angle_zero(r) in self.zeros]
         few = {(angle_zero(self.records[i]), self.records[i].factors.get("load")): i for i in errors}
         return found, sorted(few.values()), errors
 

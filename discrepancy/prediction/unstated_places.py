@@ -56,11 +56,11 @@ class UnstatedPlaces:
 
     def __init__(self, records: Sequence[Record], turn: float, period: float):
         self.turn, self.period = turn, period
-        self.errors = [record for record in records if record.quantity == ERROR and not record.held_out]
+        self.errors = [record for record in records if record.quantity == ERROR and record.fitted]
         # One of each condition tells: they were not turned between.
         first: dict[str, Record] = {}
         for record in records:
-            if is_unplaced(record):
+            if is_unplaced(record) and not record.left_out:
                 first.setdefault(record.condition, record)
         self.loops = {condition: fewer_samples(record) for condition, record in first.items()}
         self.found: dict[Effects, dict[str, float]] = {}

@@ -40,8 +40,8 @@ class Workspace:
         self.model, self.threads = model, model.threads if isinstance(model, OnThreads) else Threads()
         self.records = list(model.records)
         self.predictions = Predictions(model)
-        self.training = [i for i, r in enumerate(self.records) if not r.held_out]
-        self.held_out = [i for i, r in enumerate(self.records) if r.held_out]
+        self.training = [i for i, r in enumerate(self.records) if r.fitted]
+        self.held_out = [i for i, r in enumerate(self.records) if r.held_out and not r.left_out]
         if not self.training:
             raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
 

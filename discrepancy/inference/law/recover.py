@@ -59,7 +59,8 @@ def recover(space: Workspace, fit: Fit, signals: list[str] | None = None, told: 
     """Laws of the misfit that ``fit`` leaves, for ``signals`` (all by default), in the units of ``told``; a constant is no law."""
     streams: dict[str, list[int]] = {}
     for i, record in enumerate(space.records):
-        streams.setdefault(stream_of(record), []).append(i)
+        if not record.left_out:
+            streams.setdefault(stream_of(record), []).append(i)
     found = []
     for signal, indices in streams.items():
         if signals is None or signal in signals:

@@ -19,7 +19,6 @@ from discrepancy.inference.noise.series import fast_part, path_of, position_of, 
 from discrepancy.inference.noise.stream_noise import StreamNoise
 from discrepancy.inference.noise.whiten import SLOW, Whitener, autoregress, correlations, gains, innovations, slow_waves, whitener, with_slow
 from discrepancy.problem import ORDERS, Record
-from discrepancy.repetitions import outlying
 from discrepancy.rounding import noise_of, step_of
 from fmu_src.arrays import Floats, Mask
 
@@ -52,8 +51,6 @@ class Noise:
 def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats]) -> Noise:
     """Noise from training records; held-out records get whiteners of the same noise."""
     masks = [usable(np.asarray(r.values)) & np.isfinite(e) & r.counted for r, e in zip(records, residuals)]
-    # A run that stands out of its repetitions says nothing of the noise, and counts the less.
-    counts = {o.run: o.weight for o in outlying(records) if o.weight < 1.0}
     members: dict[str, list[int]] = defaultdict(list)
     for index, record in enumerate(records):
         members[noise_key(record)].append(index)
@@ -62,7 +59,8 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
     warnings = []
     for key, indices in members.items():
         training = [i for i in indices if not records[i].held_out] or indices
-        plain = [i for i in training if records[i].name not in counts] or training
+        # A run that is left out says nothing of the noise either.
+        plain = [i for i in training if not records[i].left_out] or training
         # What stands beside each other in a table of orders is no neighbour: its noise is that of single numbers.
         short = all(masks[i].sum() < SHORT or records[i].quantity == ORDERS for i in indices)
         fit = _numbers if short else _signals
@@ -72,14 +70,11 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
             warnings.append(f"{key}: {note}")
         held = [i for i in indices if i not in plain]
         if held and not short:
-            repeated = [i for i in held if records[i].name not in counts]
+            repeated = [i for i in held if not records[i].left_out]
             weights.update(_weights(stream, deviations_of(records, residuals, masks, repeated), records, residuals, masks, held))
         # Single numbers are too few to show the step in which they were rounded: all runs together do.
         step = step_of(np.concatenate([np.asarray(records[i].values, float) for i in indices])) if short else None
         for i in indices:
-            if records[i].name in counts:
-                weights[i] = weights.get(i, np.ones(int(masks[i].sum()))) * counts[records[i].name]
-                warnings.append(f"{key}: run {records[i].name} stands out of its repetitions and counts for {100.0 * counts[records[i].name]:.0f} % of one")
             whiteners[i] = _whitener(key, stream, records[i], predictions[i], masks[i], weights.get(i), _rounded(records, indices, i, step))
         lost = [records[i].name for i in indices if masks[i].sum() < 0.98 * masks[i].size]
         if lost:
