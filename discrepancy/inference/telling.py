@@ -19,7 +19,7 @@ from discrepancy.inference.refit.beside_base import WIDER, widened
 from discrepancy.inference.refit.confusable import canonical_correlation
 from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
-from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits
+from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits, StandIn
 from discrepancy.problem import BASE, Candidate, Parameter
 
 # What shows less of an effect than this share of what was measured says nothing of its size.
@@ -64,7 +64,7 @@ class Teller:
 
     def diagnosis(
         self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
-        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: Callable[[Refit], HeldOut | None] | None,
+        p_screen: float, p_local: float, alternatives: Mapping[str, Sequence[Refit]], judge: Callable[[Refit], HeldOut | None] | None,
     ) -> Diagnosis:  # fmt: skip
         """Everything that is told, in plain data."""
         effects = []
@@ -78,7 +78,8 @@ class Teller:
             factors = {} if verdict == STOPPED else self.beside_base(member)
             for c in (c for c in member.candidates if c.part != BASE):
                 gain = self._gain_of(member, c) if several else member.gain
-                bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
+                # What the data say nothing about is anywhere in its range, and stands where it stood.
+                bounds = tuple(p.name for p in c.parameters if numbers[p.name].at_bound)
                 if bounds:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
                 share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
@@ -95,15 +96,17 @@ class Teller:
         if several:
             effects.sort(key=lambda e: -e.gain)
         names = {e.name for e in effects}
+        stand_ins = {name: [self.stand_in(r, members[0]) for r in others] for name, others in alternatives.items()}
+        standing = {c.name for others in alternatives.values() for r in others for c in r.candidates[-1:]} if several else set()
         rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)
         for r in rivals:
-            if r.name not in names:
+            if r.name not in names | standing:
                 worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
-                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": why_not(r, members[0], worse) if members else
-                                 "not significant after correction for multiplicity"})
+                why = why_not(r, members[0], worse) if members else "not significant after correction for multiplicity"
+                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": f"alone {why} than all that is named" if several else why})
         for s in self.scores.values():
-            if s.name not in names and not any(x["name"] == s.name for x in rejected):
+            if s.name not in names | standing and not any(x["name"] == s.name for x in rejected):
                 rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: {chance(s.p_adjusted)} over all effects, "
                                  f"explains {chi_text(s.statistic)} of chi-square alone"})
         if not members:
@@ -125,11 +128,20 @@ class Teller:
         warnings += [f"{p.description or p.name}: {fit.values[p.name]:.3g} {p.unit}, which is {abs(fit.values[p.name] - p.off) / p.prior:.1f} times"
                      f" what was assumed of it ({p.off:.3g} +- {p.prior:.2g}): the base model is off there"
                      for p in base.parameters if p.prior and not p.of_base and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
-        return Diagnosis(verdict, effects, told, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
+        plainly = {name: [r.candidates[-1].name for r in others] for name, others in alternatives.items()}
+        return Diagnosis(verdict, effects, told, confusable, plainly, correlations, rejected, self.localisation.to_dict(), leftover,
                          float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
-                         Fits(self.space, list(members), list(rivals)))
+                         Fits(self.space, list(members), list(rivals)), stand_ins=stand_ins)
+
+    def stand_in(self, joint: Refit, first: Refit) -> StandIn:
+        """What could stand in place of one that is named, the last of ``joint``."""
+        candidate = joint.candidates[-1]
+        numbers = {e.name: e for e in estimates(self.space, joint, self.coverage, self.inflation(joint))}
+        worse = float(joint.fit.chi2 - first.fit.chi2)
+        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} for p in by_weight(self.space, joint, candidate)}
+        return StandIn(candidate.name, told_of, worse, why_not(joint, first, worse))
 
     def _gain_of(self, joint: Refit, candidate: Candidate) -> float:
         """What one of several effects adds to the others."""

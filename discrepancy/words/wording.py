@@ -102,16 +102,8 @@ def told_apart_by(answer: Answer, title: Callable[[str], str] = str) -> list[str
 
 
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
-    """The rivals that are no stand-ins, with the part at which they were tried; beside several effects a rival alone is held against all of them."""
-    rejected = [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
-    if not fitted_together(answer):
-        return rejected
-    standing = {name for others in answer.diagnosis.alternatives.values() for name in others}
-    return [
-        r | ({"reason": f"alone {r['reason']} than all that is named"} if r["chi2_difference"] is not None else {})
-        for r in rejected
-        if r["name"] not in standing
-    ]
+    """The rivals that are no stand-ins, with the part at which they were tried."""
+    return [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
 
 
 def base_texts(answer: Answer) -> list[str]:
