@@ -112,6 +112,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         error_text,
         fitted_together,
         left_text,
+        other_form_text,
         shares_text,
         stand_ins,
         together_text,
@@ -132,6 +133,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "name": effect["name"], "title": effect["title"], "place": variant_text(effect),
             "candidates": added_of(effect), "instead": instead_of(effect), "share": shares_text(answer, effect),
             "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
+            "others": [{"said": other_form_text(form), "parameters": parameters(answer, form["parameters"])} for form in effect["other_forms"]],
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off

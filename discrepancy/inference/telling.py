@@ -16,12 +16,14 @@ from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.beside_base import WIDER, widened
-from discrepancy.inference.refit.confusable import canonical_correlation
+from discrepancy.inference.refit.confusable import canonical_correlation, penalised
 from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
 from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits, StandIn
 from discrepancy.problem import BASE, Candidate, Parameter
 
+# Chi-square by which two fits are not told to differ.
+SAME_CHI2 = 0.05
 # What shows less of an effect than this share of what was measured says nothing of its size.
 SHOWN = 0.05
 
@@ -103,8 +105,9 @@ class Teller:
         for r in rivals:
             if r.name not in names | standing:
                 worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
-                why = why_not(r, members[0], worse) if members else "not significant after correction for multiplicity"
-                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": f"alone {why} than all that is named" if several else why})
+                why = why_not(r, members[0], worse, "all that is named" if several else "") if members else "not significant after correction for multiplicity"
+                why = f"alone {why}" if several else why
+                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": why})
         for s in self.scores.values():
             if s.name not in names | standing and not any(x["name"] == s.name for x in rejected):
                 rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: {chance(s.p_adjusted)} over all effects, "
@@ -191,13 +194,15 @@ def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None,
     if len(members) < 2:
         return None, ""
     worse = float(member.fit.chi2 - members[0].fit.chi2)
-    return worse, "" if member is members[0] else f"{why_not(member, members[0], worse)} than {members[0].name}"
+    return worse, "" if member is members[0] else why_not(member, members[0], worse, members[0].name)
 
 
-def why_not(rival: Refit, first: Refit, worse: float) -> str:
-    """Why a rival whose chi-square lies so much above that of what stands first is turned down."""
-    if worse >= 0.0:
-        return f"fits worse by {chi_text(worse)} in chi-square"
+def why_not(rival: Refit, first: Refit, worse: float, than: str = "") -> str:
+    """How a rival whose chi-square lies so much above that of what stands first compares to it, or to what it is called."""
+    if abs(worse) < SAME_CHI2:
+        return f"fits as well{than and f' as {than}'}"
+    if worse > 0.0:
+        return f"fits worse by {chi_text(worse)} in chi-square{than and f' than {than}'}"
     more = len(rival.own) - len(first.own)
-    price = f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely"
-    return f"fits better by {chi_text(-worse)} in chi-square, with {price}"
+    dear = f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely" if penalised(rival) > penalised(first) else ""
+    return f"fits better by {chi_text(-worse)} in chi-square{dear and f', with {dear}'}{than and f' than {than}'}"

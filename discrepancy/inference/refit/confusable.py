@@ -7,7 +7,7 @@ from scipy.special import ndtr, stdtrit
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.refit import UNDETERMINED, Refit
+from discrepancy.inference.refit.refit import Refit, is_untold
 from discrepancy.problem import BASE, CHAIN, Candidate, Parameter
 from fmu_src.arrays import Floats
 
@@ -80,7 +80,7 @@ def has_idle_shapes(rival: Refit, members: Sequence[Candidate] | None = None) ->
     for p in (p for c in (rival.candidates if members is None else members) for p in c.shapes if p.lower > 0.0):
         k = names.index(p.name)
         deviation = float(np.sqrt(max(rival.covariance[k, k], 0.0)))
-        if rival.fit.normal[k, k] * p.scale**2 < UNDETERMINED or deviation / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower):
+        if is_untold(rival.fit, k) or deviation / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower):
             return True
     return False
 
