@@ -205,7 +205,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
-    effects = [e | {"other_forms": forms_seen(e["other_forms"], found, model.file)} for e in seen_from_crank(with_others(effects, found), fit.values, model.file)]
+    effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
+    effects = [effect | {"other_forms": forms_seen(effect["other_forms"], found, model.file)} for effect in effects]
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     untold += either_texts(effects, fit.values, model.file, bool(model.file.effects) or verdict == SEVERAL)
     # Who interrupts waits for nothing more.

@@ -86,6 +86,7 @@ class Teller:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
                 share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
                     captured * member.gain / max(members[0].gain, 1e-300)
+                warnings += told_together(c, numbers)
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
@@ -143,7 +144,9 @@ class Teller:
         candidate = joint.candidates[-1]
         numbers = {e.name: e for e in estimates(self.space, joint, self.coverage, self.inflation(joint))}
         worse = float(joint.fit.chi2 - first.fit.chi2)
-        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} for p in by_weight(self.space, joint, candidate)}
+        factors = self.beside_base(joint)
+        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+                   for p in by_weight(self.space, joint, candidate)}
         return StandIn(candidate.name, told_of, worse, why_not(joint, first, worse))
 
     def _gain_of(self, joint: Refit, candidate: Candidate) -> float:
@@ -183,10 +186,21 @@ def meaning(p: Parameter) -> str:
     return p.description.removesuffix(f" ({p.off:g}: off)")
 
 
+def told_together(candidate: Candidate, numbers: Mapping[str, Estimate]) -> list[str]:
+    """Of parameters of an effect that are told only in combination, that they are."""
+    sets = dict.fromkeys(tuple(sorted([p.name, *numbers[p.name].others])) for p in candidate.parameters if numbers[p.name].others)
+    return [
+        f"{candidate.name}: the fitted runs tell {' and '.join(names)} only together, for what one has less another makes up for; each may be anywhere in its"
+        " interval" for names in sets
+    ]  # fmt: skip
+
+
 def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:
     """The interval with the base model's numbers free within their ranges, where that is another one."""
-    factor = factors.get(p.name, 1.0)
-    return {"interval_with_base": list(widened(estimate.interval, estimate.value, factor, (p.lower, p.upper)))} if factor > WIDER else {}
+    # What the data say nothing about is not known less with them.
+    factor = factors.get(p.name, 1.0) if np.isfinite(estimate.deviation) else 1.0
+    core = estimate.core or (estimate.value, estimate.value)
+    return {"interval_with_base": list(widened(estimate.interval, core, factor, (p.lower, p.upper)))} if factor > WIDER else {}
 
 
 def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None, str]:

@@ -124,7 +124,9 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
             continue
         if is_untold(fit, k):
             # The data say nothing about it: the interval is its range.
-            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False, p.is_direction))
+            without = fit.normal[k, k] * p.scale**2 < UNDETERMINED
+            dof = 1.0 if without else effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
+            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), dof, False, p.is_direction))
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
