@@ -53,9 +53,10 @@ def telling_forms(answer: "Answer", campaign: Campaign) -> list[str]:
     members = {member.name: member for member in answer.diagnosis.fits.members}
     texts = []
     for effect in answer.effects:
-        forms = [members[name] for name in [effect["candidates"][0], *(form["candidates"][0] for form in effect["other_forms"])] if name in members]
-        if len(forms) < 2:
+        others = effect.get("other_forms", ())
+        if not others:
             continue
+        forms = [members[one["candidates"][0]] for one in (effect, *others)]
         least = min(form.fit.chi2 for form in forms)
         result = weighed(answer, campaign, [rival_of(form, None, least) for form in forms[:MOST_FORMS]])
         names = " or ".join(form.name.partition(".")[2].replace("_", " ") for form in forms)

@@ -25,7 +25,6 @@ from discrepancy.inference.refit.effect_fit import may_reach
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain, joint_gain, screen
-from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import BASE, Candidate
 
@@ -325,7 +324,7 @@ class Selection:
         what = f"fitting in place of {member.name}"
         rivals = self.tried(what, lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
         # Of what comes near all forms that show as much: four springs look alike in a loop.
-        alike = {effect_of(c) for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
-        twins = [s for s in others if s not in chosen and effect_of(self.refits.by_name[s.name]) in alike]
+        alike = {c.name.partition(".")[0] for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
+        twins = [s for s in others if s not in chosen and s.name.partition(".")[0] in alike]
         rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
         return [self.as_reported(least, r) if r.fit.chi2 < near else r for r in rivals]
