@@ -18,6 +18,7 @@ from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import why_not, with_base
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import Candidate, Parameter
+from discrepancy.words.as_told import parameters
 
 BOTH = Candidate("both", "both", (Parameter("gap", "m", 0.0, 0.0, 1e-4, 1e-6, 1), Parameter("tilt", "m", 0.0, 0.0, 1e-4, 1e-6, 1)), signals=("transmission_error",))
 
@@ -98,6 +99,8 @@ def test_numbers_that_are_told_only_together_may_each_be_all_of_it(together):
         p = next(p for p in member.own if p.name == one.name)
         assert with_base(one, p, {one.name: 2.0})["interval_with_base"][1] == pytest.approx(whole + 2.0 * (one.interval[1] - whole))
     assert "both: the fitted runs tell gap and tilt only together" in " ".join(found.warnings)
+    (effect,) = found.effects
+    assert parameters(effect.parameters, ())["gap"]["told_with"] == ["tilt"]
     flat, *_ = profiles(doctor.space, member)
     assert flat.values.min() == pytest.approx(0.0, abs=1e-9) and flat.values.max() > 0.95 * whole and flat.chi2[np.argmin(flat.values)] < 4.0
 

@@ -1,6 +1,5 @@
 """What each kind of job computes: the same functions as the commands, their results as data and as the page of one file."""
 
-import re
 import shlex
 import time
 from collections.abc import Callable
@@ -137,7 +136,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
-    others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
+    others = [with_minus(text) for text in stand_ins(answer, effect_title).values()]
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,

@@ -17,7 +17,7 @@ from discrepancy.words.wording import (
     NEAREST,
     fitted_together,
     not_judged_text,
-    other_form_text,
+    own_form,
     percent,
     stand_in_text,
     together_text,
@@ -48,12 +48,13 @@ def listed(names: list[str]) -> str:
 def effects(answer: Answer) -> Section:
     """Parameters with intervals, and each effect's share."""
     rows, answers = [], []
-    for effect, called in [pair for e in answer.effects for pair in ((e, named(e)), *((f, other_form_text(f)) for f in e.get("other_forms", ())))]:
+    for effect, called in [pair for e in answer.effects for pair in ((e, named(e)), *((f, f"or {own_form(f)}") for f in e.get("other_forms", ())))]:
         first = True
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
-            bound = "; ".join(filter(None, (bound, with_base_text(entry))))
+            beside = amounts.in_words(effect.get("reason") or "") if first else ""
+            bound = "; ".join(filter(None, (beside, bound, with_base_text(entry))))
             told = told_name(name, tables_of(answer.model))
             rows.append([called if first else "", effect["part"] if first else "", told, value, interval, unit, entry.get("meaning", ""), bound])
             first = False

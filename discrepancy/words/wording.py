@@ -109,11 +109,11 @@ def together_text(answer: Answer) -> str:
     return f"together{base} this {share_text(answer, answer.diagnosis.captured)}" + (f"; {error}" if error else "")
 
 
-def stand_ins(answer: Answer) -> dict[str, str]:
+def stand_ins(answer: Answer, title: Callable[[str], str] = str) -> dict[str, str]:
     """What could stand in place of each effect, with its values, as a sentence."""
     beside = ", beside the others," if fitted_together(answer) else ""
     return {
-        name: f"in place of {name}{beside} could stand: {'; '.join(f'{s.name} ({stand_in_text(answer, s)})' for s in others)}"
+        name: f"in place of {title(name)}{beside} could stand: {'; '.join(f'{title(s.name)} ({stand_in_text(answer, s)})' for s in others)}"
         for name, others in answer.diagnosis.stand_ins.items()
     }
 
