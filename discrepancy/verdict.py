@@ -5,7 +5,7 @@ centre, or oval).  Here they are put together under the effect's name.
 """
 
 import time
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -39,6 +39,7 @@ from discrepancy.words import as_told
 from discrepancy.words.waves import waves_of
 from discrepancy.words.would_show import WouldShow, would_show
 from fmu_src.progress import task
+from fmu_src.table import Table
 from fmu_src.threads import sharing_no_matrices
 
 
@@ -111,16 +112,24 @@ class Answer:
             for name, entry in self.diagnosis.held_out.items()
         }
         nuisances = self.diagnosis.nuisances | {name: zero for name, zero in self.zeros.items() if name in self.diagnosis.nuisances}
+        stand_ins = {
+            name: [s | {"parameters": as_told.parameters(s["parameters"], tables)} for s in others] for name, others in self.in_si()["stand_ins"].items()
+        }
         return self.in_si() | {
-            "effects": [e | {"parameters": as_told.parameters(e["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in e["at_bounds"]],
-                            "forms": {form: [as_told.told_name(n, tables) for n in names] for form, names in e["forms"].items()},
-                            "waves": [wave.as_json(tables) for wave in waves_of(e["parameters"])]}
-                        for e in self.effects],
+            "effects": [effect_told(e, tables) for e in self.effects], "stand_ins": stand_ins,
             "base_off": [as_told.base_error(e, tables) for e in self.diagnosis.base_off], "held_out": held_out,
             "nuisances": as_told.numbers(nuisances, units, tables), "key_figures": as_told.figures(self.figures),
             "key_figures_after": as_told.figures(self.figures_after),
             "noise": as_told.noises(self.diagnosis.noise, {s: signals[s] for s in self.diagnosis.noise if s in signals}),
         }  # fmt: skip
+
+
+def effect_told(effect: Mapping[str, Any], tables: Sequence[Table]) -> dict[str, Any]:
+    """An effect, with its other forms, by the names and in the units that screen and page have."""
+    return {**effect, "parameters": as_told.parameters(effect["parameters"], tables), "at_bounds": [as_told.told_name(n, tables) for n in effect["at_bounds"]],
+            "forms": {form: [as_told.told_name(n, tables) for n in names] for form, names in effect["forms"].items()},
+            "other_forms": [effect_told(form, tables) for form in effect["other_forms"]],
+            "waves": [wave.as_json(tables) for wave in waves_of(effect["parameters"])]}  # fmt: skip
 
 
 # What Ctrl-C says where there is no answer yet.
@@ -197,6 +206,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     doubts += unstated_texts(model, found)
     doubts += zero_texts(model, doctor.space, fit)
     effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
+    effects = [effect | {"other_forms": forms_seen(effect["other_forms"], found, model.file)} for effect in effects]
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)
     untold += either_texts(effects, fit.values, model.file, bool(model.file.effects) or verdict == SEVERAL)
     # Who interrupts waits for nothing more.
@@ -231,6 +241,12 @@ def reason_of(effect: dict[str, Any], verdict: str) -> str:
     return f"it explains the misfit; which of its forms it is this campaign cannot tell, for they look alike in it: {forms}"
 
 
+def forms_seen(forms: Sequence[Mapping[str, Any]], found: Diagnosis, file: ModelFile) -> list[dict[str, Any]]:
+    """Forms that fit as well as the one whose values are told, each with the other values and places that show the same in its own fit."""
+    members = {m.name: m for m in found.fits.members}
+    return [one for form in forms for one in seen_from_crank(with_others([form], found), members[form["candidates"][0]].fit.values, file)]
+
+
 def added_of(effect: Mapping[str, Any]) -> list[str]:
     """Candidates of an effect that are added: all forms that were fitted together, of those that look alike the one whose values are told."""
     return list(effect["candidates"]) if effect["forms"] else list(effect["candidates"][:1])
@@ -261,12 +277,12 @@ def share_alone(names: list[str], doctor: Diagnostician, found: Diagnosis) -> fl
 
 def merged(effects: list[dict[str, Any]], together: Container[str]) -> list[dict[str, Any]]:
     """Variants of one effect under its name: the best speaks for those that are alternatives, all do that were fitted ``together``, with
-    ``forms``: variant -> its parameters."""
+    ``forms``: variant -> its parameters; ``other_forms`` are alternatives whole, each with its own values."""
     found: dict[str, dict[str, Any]] = {}
     for entry in effects:
         candidate = entry["name"]
         name, _, variant = candidate.partition(".")
-        entry = entry | {"name": name, "variant": variant, "candidates": [candidate], "forms": {}}
+        entry = entry | {"name": name, "variant": variant, "candidates": [candidate], "forms": {}, "other_forms": []}
         if name not in found:
             found[name] = entry
             continue
@@ -277,5 +293,7 @@ def merged(effects: list[dict[str, Any]], together: Container[str]) -> list[dict
             first["variant"] = f"{first['variant']} + {variant}"
             first["at_bounds"] = [*first["at_bounds"], *entry["at_bounds"]]
             first["share_explained"] = min(1.0, first["share_explained"] + entry["share_explained"])
+        else:
+            first["other_forms"].append(entry)
         first["candidates"] += entry["candidates"]
     return list(found.values())

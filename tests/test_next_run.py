@@ -11,10 +11,11 @@ from cli.show.comparison import show_asked, show_next
 from discrepancy.alike.ring_directions import either_texts
 from discrepancy.alike.untold import parts_untold
 from discrepancy.campaign.model import Campaign, Rig
+from discrepancy.experiment import weighed_runs
 from discrepancy.experiment.next_run import NextRun, proposal_for
 from discrepancy.experiment.rig_runs import at_rated, conditions, describe, possible
 from discrepancy.experiment.weighed_runs import measured_in
-from discrepancy.inference.next_experiment import Experiment, Proposal, RivalLaw, next_experiment
+from discrepancy.inference.next_experiment import Experiment, NextExperiment, Proposal, RivalLaw, next_experiment
 from discrepancy.inference.noise.noise import estimate
 from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, UNKNOWN, Settings
 from discrepancy.model_file import ModelFile
@@ -95,7 +96,7 @@ def answer_of(verdict, members=(), findings=(), rivals=()):
     fits = SimpleNamespace(members=[SimpleNamespace(name=m) for m in members], rivals=[SimpleNamespace(name=r) for r in rivals], space=None)
     local = {"findings": list(findings)}
     records = [weighed("disc", 1, 2e-6), replace(weighed("disc", 2, 2e-6), factors={"speed": 200.0, "load": 20.0})]
-    diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local, nuisances={})
+    diagnosis = SimpleNamespace(fits=fits, leftover={"findings": list(findings)} if members else {}, localisation=local, nuisances={}, alternatives={})
     said = "that no effect of the catalogue explains"
     return SimpleNamespace(verdict=verdict, diagnosis=diagnosis, laws=[], model=model_of(records), left_over=said, effects=[], untold=[], would_show=None)
 
@@ -283,3 +284,36 @@ def test_loops_are_proposed_where_the_input_may_be_locked_and_at_no_speed():
     (rated,) = at_rated(model)
     assert "rpm" not in rated.name and rated.record.factors["locked_at"] == 0.0
     assert conditions(replace(loop, factors={"temperature": 293.15}), model, None, CAMPAIGN) == [{"temperature": 293.15}]
+
+
+@pytest.mark.parametrize("rig", [CAMPAIGN.rig, None])
+def test_what_was_weighed_is_said_with_the_verdict(rig, monkeypatch):
+    """"On this rig" stood there where the campaign states none."""
+    for name in ("possible", "at_rated"):
+        monkeypatch.setattr(weighed_runs, name, lambda *_: [])
+    answer = SimpleNamespace(model=None, diagnosis=SimpleNamespace(fits=SimpleNamespace(space=None)))
+    said = weighed_runs.weighed(answer, replace(CAMPAIGN, rig=rig), []).verdict
+    assert ("on this rig" in said) == (rig is not None) and ("it states no [rig]" in said) == (rig is None)
+
+
+@pytest.mark.parametrize("tells", [True, False])
+def test_forms_that_look_alike_are_asked_for(tells, monkeypatch):
+    """Of four springs one was named, and nothing was left to separate."""
+    fits = [SimpleNamespace(name=f"support_compliance.{form}", fit=SimpleNamespace(chi2=9.0)) for form in ("carrier", "crank_supports")]
+    answer = answer_of(ONE)
+    answer.diagnosis.fits.members = fits
+    answer.effects = [{"name": "support_compliance", "candidates": [f.name for f in fits], "parameters": {}, "other_forms": [{"candidates": [fits[1].name]}]}]
+    proposal = Proposal("transmission_error at 100 N.m", {}, 1.0, 9.0 if tells else 1.0, 9.0 if tells else 1.0, {})
+    monkeypatch.setattr(weighed_runs, "rival_of", lambda member, *_: member)
+    monkeypatch.setattr(weighed_runs, "weighed", lambda *_: NextExperiment(tells, f"{proposal.experiment} separates all rivals", [proposal], {}))
+    said = proposal_for(answer, CAMPAIGN).verdict
+    start = "which form of support compliance it is, carrier or crank supports: "
+    assert start + ("transmission_error at 100 N.m separates" if tells else "no run of what was measured tells") in said
+    assert "apart from that nothing is left to separate" in said
+
+
+def test_what_could_stand_in_place_of_a_named_one_is_no_end_of_the_matter():
+    answer = answer_of(ONE, ["support_compliance.carrier"])
+    answer.diagnosis.alternatives = {"support_compliance.carrier": ["support_compliance.housing"]}
+    said = proposal_for(answer, CAMPAIGN).verdict
+    assert "support_compliance.carrier could as well be support_compliance.housing, which this campaign does not tell" in said and "stands alone" not in said

@@ -16,8 +16,9 @@ from discrepancy.extend import verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Group, Localisation
 from discrepancy.inference.next_experiment import NextExperiment, Proposal
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, STOPPED
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, STOPPED
 from discrepancy.model_file import load_model
+from discrepancy.page import evidence
 from discrepancy.scales import of_axis, of_parameter, of_signal, parameter_texts
 from discrepancy.verdict import added_of, instead_of, merged
 from discrepancy.words.left_sizes import left_sizes
@@ -103,7 +104,7 @@ def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None
                             noise=SimpleNamespace(whiteners=[whitener, whitener], streams={"hysteresis": SimpleNamespace(patterns={})}))
     entry = {"before": before, "after": after, "rms": rms} | ({"kind": kind} if kind else {})
     diagnosis = SimpleNamespace(fits=SimpleNamespace(space=space, members=[]), held_out={"play": entry}, leftover=leftover or {}, captured=1.0, reason="r",
-                                alternatives={}, rejected=[], base_off=[], nuisances={})
+                                alternatives={}, stand_ins={}, rejected=[], base_off=[], nuisances={})
     effect = {"name": "play", "variant": "", "candidates": ["play"], "forms": {}, "parameters": {"gap": {"value": 2e-7, "interval": (1e-7, 3e-7), "unit": "rad/(N.m)"}},
               "share_explained": 1.0, "held_out_error_before": before, "held_out_error_after": after}
     return SimpleNamespace(verdict=verdict, reason=diagnosis.reason, diagnosis=diagnosis, effects=[effect], confusable=[], laws=[], warnings=[], figures=[], figures_after=[], added="", of_chance="", would_show=None,
@@ -160,9 +161,11 @@ def test_forms_that_are_added_together_stand_each_with_its_values(capsys):
     # Alternatives are one fit each; the first speaks.
     alike, _ = merged(parts, {"disc_tooth_errors.oval_form"})
     assert not alike["forms"] and set(alike["parameters"]) == {"oval"} and len(alike["candidates"]) == 2
+    assert [form["candidates"] for form in alike["other_forms"]] == [["disc_tooth_errors.scatter"]]
     assert added_of(alike) == ["disc_tooth_errors.oval_form"]
     assert instead_of(alike | {"look_alike": ["disc_tooth_errors.crank_2"]}) == ["disc_tooth_errors.scatter", "disc_tooth_errors.crank_2"]
     effect, _ = merged(parts, set(forms))
+    assert effect["other_forms"] == []
     assert added_of(effect) == effect["candidates"] and instead_of(effect) == []
     assert effect["forms"] == {"oval_form": ["oval"], "scatter": ["scatter"]} and effect["share_explained"] == 1.0
     answer = answer_of(INCOMPLETE, True)
@@ -173,6 +176,29 @@ def test_forms_that_are_added_together_stand_each_with_its_values(capsys):
     shown = capsys.readouterr().out
     found = [shown.index(text) for text in ("disc_tooth_errors (oval form + scatter)", "\n  oval form:\n", "4 um", "\n  scatter:\n", "1 um")]
     assert found == sorted(found)
+
+
+def test_every_form_that_fits_as_well_is_named_with_its_values(capsys):
+    """Four springs fitted alike; screen and page named one."""
+    springs = {"first_stage": "first_stage_compliance", "carrier": "carrier_compliance", "housing": "housing_compliance"}
+    parts = [{"name": f"support_compliance.{form}", "parameters": {name: {"value": k * 1e-8, "interval": (k * 9e-9, k * 1.1e-8), "unit": "rad/(N.m)"}}, "part": "plant",
+              "share_explained": 1.0, "at_bounds": [], "held_out_error_before": None, "held_out_error_after": None,
+              "reason": "fits as well as support_compliance.first_stage" if k > 1 else ""} for k, (form, name) in enumerate(springs.items(), 1)]  # fmt: skip
+    (effect,) = merged(parts, {"support_compliance.first_stage"})
+    answer = answer_of(SET, True)
+    answer.effects, answer.confusable = [effect], ["support_compliance", "support_hysteresis"]
+    answer.model = SimpleNamespace(campaign=SimpleNamespace(), file=load_model("RV20E-121"))
+    answer.diagnosis.fits.members = []
+    shows.show_answer(answer)
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "support_compliance (first stage, carrier or housing) explains" in shown
+    assert shown.count("or carrier (fits as well as support_compliance.first_stage): carrier_compliance = 6.875e-05") == 1
+    assert shown.count("housing_compliance = 0.0001031") == 1
+    assert "cannot tell apart: support_compliance (first stage, carrier or housing), support_hysteresis;" in shown
+    answer.diagnosis.fits.space.training = []
+    rows = evidence.effects(answer).tables[0].rows
+    assert [row[0] for row in rows] == ["support compliance (first stage, carrier or housing)", "or carrier", "or housing"]
+    assert rows[1][-1] == "fits as well as support compliance (first stage)" and rows[0][-1] == ""
 
 
 def test_error_below_the_noise_is_not_many_times_the_noise(capsys):

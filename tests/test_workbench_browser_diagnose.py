@@ -231,9 +231,14 @@ def test_a_diagnosis_that_is_found_again_says_when_it_was_made_and_names_its_eff
     head.get_by_text("found again: made ").wait_for()
     assert "Nov 2023" in head.inner_text() and head.inner_text().endswith(", from the folder /data/first with the same files, in 3 min of computing")
     assert bench.page.locator("#verdict").inner_text().count("crank 1 at disc 1") == 1
-    folder.remember("jobs/diagnose/result", answer | {"found": None})
+    # A form that fits as well stands below it with its values.
+    carrier = {"name": "carrier_compliance", "value": "0.0172", "unit": "arcmin/(N m)", "interval": "0.0171 to 0.0173", "meaning": "", "bound": False, "with_base": "",
+               "why": None}  # fmt: skip
+    others = [{"said": "or carrier (fits as well)", "parameters": [carrier]}]
+    folder.remember("jobs/diagnose/result", answer | {"found": None, "effects": [effect | {"others": others}]})
     bench.page.reload()
     head.get_by_text("one effect · 3 min of computing").wait_for()
+    assert "or carrier (fits as well):\ncarrier_compliance = 0.0172 arcmin/(N m) 95 %: 0.0171 to 0.0173" in bench.page.locator("#verdict").inner_text()
 
 
 def test_what_is_significant_is_no_share_of_nothing(bench):

@@ -1,6 +1,5 @@
 """What each kind of job computes: the same functions as the commands, their results as data and as the page of one file."""
 
-import re
 import shlex
 import time
 from collections.abc import Callable
@@ -112,6 +111,7 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
         error_text,
         fitted_together,
         left_text,
+        other_form_text,
         shares_text,
         stand_ins,
         together_text,
@@ -132,10 +132,11 @@ def answer_data(answer: "Answer") -> dict[str, Any]:
             "name": effect["name"], "title": effect["title"], "place": variant_text(effect),
             "candidates": added_of(effect), "instead": instead_of(effect), "share": shares_text(answer, effect),
             "error": "" if fitted_together(answer) else error_text(answer, effect).replace("->", "→"), "parameters": parameters(answer, effect["parameters"]),
+            "others": [{"said": other_form_text(form), "parameters": parameters(answer, form["parameters"])} for form in effect["other_forms"]],
             "held": held_text(effect["name"], answer.model),
         })  # fmt: skip
     off = answer.diagnosis.base_off
-    others = [re.sub(r"[a-z]+(?:[_.][a-z0-9]+)+", lambda m: effect_title(m[0]), text) for text in stand_ins(answer).values()]
+    others = [with_minus(text) for text in stand_ins(answer, effect_title).values()]
     return {
         "headline": headline(answer),
         "verdict": answer.verdict, "tone": tone(answer), "reason": reason_text(answer), "effects": effects, "confusable": answer.confusable,

@@ -79,7 +79,7 @@ def refusal(options: argparse.Namespace, answer: "Answer") -> str:
         declared = answer.diagnosis.base_off[0].name.partition("[")[0] if numbers else ""
         return start + takes + (f"\nor declare it in campaign.toml, [nuisances.{declared}], so that every command calibrates it" if declared else "")
     if answer.confusable:
-        lines = [extend_line(options, effect["candidates"][:1]) for effect in answer.effects]
+        lines = [extend_line(options, [candidate]) for effect in answer.effects for candidate in effect["candidates"]]
         return "\n  ".join([f"{start}, for {', '.join(answer.confusable)} cannot be told apart; one of these lines adds one of them:", *lines])
     named = [candidate for effect in answer.effects for candidate in added_of(effect)]
     nearest = named or [rival["name"] for rival in found.rejected[:1]]

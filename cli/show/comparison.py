@@ -39,6 +39,7 @@ from discrepancy.words.wording import (
     error_text,
     fitted_together,
     left_text,
+    other_form_text,
     percent_of_misfit,
     shares_text,
     signals_left,
@@ -173,6 +174,9 @@ def show_answer(answer: Answer, standing: Mapping[str, str] = {}) -> None:
                 show_parameters({name: effect["parameters"][name] for name in names}, answer, out, "    ")
         else:
             show_parameters(effect["parameters"], answer, out, "  ")
+        for other in effect.get("other_forms", ()):
+            out.print(f"  {other_form_text(other)}:")
+            show_parameters(other["parameters"], answer, out, "    ")
         if held := held_text(effect["name"], answer.model):
             out.print(f"  {held}")
         error = "" if fitted_together(answer) else error_text(answer, effect)

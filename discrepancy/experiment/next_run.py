@@ -17,7 +17,7 @@ from discrepancy.experiment.rig_runs import (
     describe,
     limits,
 )
-from discrepancy.experiment.weighed_runs import apart_text, measured_in, telling_either, weighed
+from discrepancy.experiment.weighed_runs import apart_text, measured_in, telling_either, telling_forms, weighed
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, rival_of
 from discrepancy.inference.noise.series import stream_of
@@ -144,8 +144,8 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""
-        untold = questions_left(answer, campaign)
-        text = start or rest_text(f"{known} stands alone" if known else "nothing is missing that this campaign shows", untold, campaign)
+        untold = [*questions_left(answer, campaign), *([] if unexplained else telling_forms(answer, campaign))]
+        text = start or rest_text(stands_text(known, answer) if known else "nothing is missing that this campaign shows", untold, campaign)
         before = of_model_before(answer) if answer.verdict == NONE else ""
         either = [] if unexplained else telling_either(answer, campaign)
         # What is not missing as far as these runs show may be so for what they do not show.
@@ -154,7 +154,7 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     chosen = list(names.values())[:MOST_RIVALS]
     least = min(member.fit.chi2 for member in chosen)
     result = weighed(answer, campaign, [rival_of(member, None, least) for member in chosen])
-    verdict = f"{start}; of those that come nearest {result.verdict}" if start else result.verdict
+    verdict = f"{start}; of those that come nearest {result.verdict}" if start else "; ".join([result.verdict, *telling_forms(answer, campaign)])
     return NextRun(answer, result, [member.name for member in chosen], verdict, left)
 
 
@@ -164,6 +164,12 @@ def questions_left(answer: Answer, campaign: Campaign) -> list[str]:
                                *parts_untold_before(answer.model.file), *answer.untold]))  # fmt: skip
     by_runs = asked_of_runs(left)
     return by_runs + [text for text in left if text not in by_runs]
+
+
+def stands_text(known: str, answer: Answer) -> str:
+    """That what is named has no rival, or has those that the diagnosis lists."""
+    others = [f"{name} could as well be {' or '.join(found)}" for name, found in answer.diagnosis.alternatives.items()]
+    return f"{known} stands; {', '.join(others)}, which this campaign does not tell" if others else f"{known} stands alone"
 
 
 def rest_text(stands: str, untold: Sequence[str], campaign: Campaign) -> str:

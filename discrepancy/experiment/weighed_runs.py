@@ -23,6 +23,15 @@ if TYPE_CHECKING:
     from discrepancy.verdict import Answer
 
 
+# Where a campaign does not say what its rig can do.
+UNSTATED_RIG = (
+    "by another run of what was measured, within the ranges of this campaign (it states no [rig], so that nothing beyond them was weighed: [rig] says"
+    " what else can be set and measured): none"
+)
+# So many forms of one effect are held against each other.
+MOST_FORMS = 4
+
+
 def weighed(answer: "Answer", campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:
     """Every experiment that the rig can do, held against what the rivals predict of it."""
     experiments = possible(answer.model, campaign, answer.diagnosis.fits.space)
@@ -35,7 +44,26 @@ def weighed(answer: "Answer", campaign: Campaign, rivals: Sequence[RivalLaw]) ->
     def naming(p: Proposal) -> str:
         return f"{p.kind} at {describe(p.settings, campaign, p.spans)}"
 
-    return next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming)
+    limits = "on this rig: no setting within its limits" if campaign.rig else UNSTATED_RIG
+    return next_experiment(predict, experiments, rivals, interests=at_rated(answer.model), naming=naming, limits=limits)
+
+
+def telling_forms(answer: "Answer", campaign: Campaign) -> list[str]:
+    """Of effects of which several forms fit as well: the run that tells which it is, or that none of those does that the rig can do."""
+    members = {member.name: member for member in answer.diagnosis.fits.members}
+    texts = []
+    for effect in answer.effects:
+        others = effect.get("other_forms", ())
+        if not others:
+            continue
+        forms = [members[one["candidates"][0]] for one in (effect, *others)]
+        least = min(form.fit.chi2 for form in forms)
+        result = weighed(answer, campaign, [rival_of(form, None, least) for form in forms[:MOST_FORMS]])
+        names = " or ".join(form.name.partition(".")[2].replace("_", " ") for form in forms)
+        none = "no run of what was measured tells; another quantity may (quantities of [rig]), or a gauge at the part itself"
+        found = result.verdict if any(p.score >= ENOUGH for p in result.proposals) else none
+        texts.append(f"which form of {effect_words(effect['name'])} it is, {names}: {found}")
+    return texts
 
 
 def telling_either(answer: "Answer", campaign: Campaign) -> list[str]:

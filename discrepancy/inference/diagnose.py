@@ -172,7 +172,7 @@ class Diagnostician:
             start = likeliest(rivals, settings.margin)
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
-        final = selection.simplified(selection.several(start, len(start.candidates) if first else 0))
+        final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         self.doing = f"looking for what could stand in place of {final.name}"
@@ -181,7 +181,7 @@ class Diagnostician:
         over, size, text, inflation = judgement.leftover(final)
         captured = max(final.gain, 0.0) / max(max(final.gain, 0.0) + size, 1e-9)
         dof = self.least_dof(final)
-        alternatives: dict[str, list[str]] = {}
+        alternatives: dict[str, list[Refit]] = {}
         open_ones: list[Refit] = []
         # What is left speaks for none of the rivals; it may have hidden no more than all of it.
         widened = min(inflation, 1.0 + size / settings.margin) if over else 1.0
@@ -216,7 +216,7 @@ class Diagnostician:
         if verdict == BASE_OFF:
             # What is named is shown in the model, not an effect that fits a little better in its place.
             members = [final, *(m for m in members if m is not final)]
-            others = [m.name for m in members if m.candidates[0].part != BASE]
+            others = [m for m in members if m.candidates[0].part != BASE]
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"

@@ -120,11 +120,12 @@ def separation(predict: Predict[E], experiment: E, rivals: Sequence[RivalLaw]) -
 
 
 def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Sequence[RivalLaw],
-                    interests: Sequence[E] = (), enough: float = ENOUGH, naming: Naming = lambda p: p.experiment) -> NextExperiment:
+                    interests: Sequence[E] = (), enough: float = ENOUGH, naming: Naming = lambda p: p.experiment,
+                    limits: str = "on this rig: no setting within its limits") -> NextExperiment:  # fmt: skip
     """The cheapest experiment that separates all pairs, or the best there is; those that differ by nothing useful are one.
 
     ``interests`` are conditions whose outcome matters: the difference of the rivals there is what
-    it would cost not to know.
+    it would cost not to know; ``limits`` says what ``experiments`` are all of.
     """
     weight = {r.name: r.weight for r in rivals}
     proposals = []
@@ -148,7 +149,7 @@ def next_experiment(predict: Predict[E], experiments: Sequence[E], rivals: Seque
     elif rest and rest[0].score >= enough:
         verdict = f"no experiment separates every pair; {rest[0].experiment} separates most"
     else:
-        verdict = "cannot be separated on this rig: no setting within the limits reaches " + f"{enough:g} of chi-square"
+        verdict = f"cannot be separated {limits} reaches {enough:g} of chi-square"
     return NextExperiment(bool(good), verdict, good + rest, stake, every)
 
 

@@ -16,6 +16,7 @@ from discrepancy.inference.refit.confusable import (
     confusable_set,
     ends_at_a_bound,
     has_idle_shapes,
+    is_settled,
     newest_at_a_bound,
     newest_does_nothing,
     penalised,
@@ -51,6 +52,8 @@ FOREMOST = 2
 ROUGH, LINEAR = 0.01, 0.02
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
+# Of several effects so many members give way to others in their place, one after another.
+MOST_EXCHANGES = 3
 
 
 def few_of_each(scores: Sequence[Score]) -> list[Score]:
@@ -82,6 +85,8 @@ class Selection:
         self.refits, self.judgement, self.settings, self.outlook = refits, judgement, settings, outlook
         self.scores = {s.name: s for s in screening.scores}
         self.space: Workspace = refits.space
+        # What was fitted in place of a member, by the fit and the member's name.
+        self.in_place: dict[tuple[frozenset[str], str], list[Refit]] = {}
 
     # one ----------------------------------------------------------------------------------
     def singles(self) -> list[Refit]:
@@ -197,7 +202,8 @@ class Selection:
             challenger = ranked(trials)[0]
             newest = challenger.candidates[-1].name
             if len(names) == 1:
-                trials += self.exchanged(names[0], newest, challenger.gain)
+                close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
+                trials += self.exchanged(names[0], newest, challenger.gain, close)
             challenger = self.in_earnest(trials)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
@@ -218,13 +224,27 @@ class Selection:
                 return found[-1]
         return min(found, key=penalised)
 
-    def exchanged(self, first: str, newest: str, gain: float) -> list[Refit]:
-        """Fits of the newest effect beside others than the first that may gain as much together."""
+    def exchanged(self, first: str, newest: str, gain: float, close: Sequence[Score] = ()) -> list[Refit]:
+        """Fits of the newest effect beside others than the first that may gain as much together: what explains most, and what was ``close`` to the first."""
+        others = few_of_each(self.screening.scores)[:5]
+        others += [s for s in close if s not in others]
         return [
-            self.refits.fit([other.name, newest]) for other in few_of_each(self.screening.scores)[:5]
+            self.refits.fit([other.name, newest], self.where_alone(other.name)) for other in others
             if other.name not in (first, newest) and frozenset([other.name, newest]) not in self.refits.fitted
             and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
         ]  # fmt: skip
+
+    def close_alone(self, first: str) -> list[Score]:
+        """Effects whose fits alone come as near to that of the first as laws do whose form is slightly off: which of them it is, the next effect may tell."""
+        fitted = self.refits.fitted
+        near = self.as_good(fitted[frozenset([first])])
+        alone = sorted((r for names, r in fitted.items() if len(names) == 1 and r.fit.chi2 < near), key=penalised)
+        return [self.scores[r.name] for r in alone if r.name in self.scores]
+
+    def where_alone(self, name: str) -> dict[str, float] | None:
+        """Where an effect was fitted alone: a score beside one that does the same says nothing of its size."""
+        alone = self.refits.fitted.get(frozenset([name]))
+        return {p.name: alone.fit.values[p.name] for p in alone.own} if alone else None
 
     def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
         """Effects that begin with no slope (play): beside others a score test sees little of them, so some are tried at their typical size."""
@@ -268,28 +288,53 @@ class Selection:
         near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
         return [r for r in near if not self.judgement.leftover(r)[0]]
 
-    def stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[str]:
-        """Effects that could replace ``member`` beside the others."""
-        rivals = self.in_place_of(final, member)
-        return [r.candidates[-1].name for r in rivals if len(confusable_set([final, r], inflation, dof, self.settings.margin)) == 2]
+    def stand_ins(self, final: Refit, member: Candidate, inflation: float, dof: float) -> list[Refit]:
+        """Fits with effects that could replace ``member`` beside the others, each as the last."""
 
-    def simplified(self, final: Refit) -> Refit:
-        """A joint fit in which no member has a shape of which nothing is known, if it is as good: such a member stands for a simpler one."""
-        if len(final.candidates) < 2 or not has_idle_shapes(final):
-            return final
-        rivals = [r for c in final.candidates if c.shapes for r in self.in_place_of(final, c)]
-        simple = sorted((r for r in rivals if not has_idle_shapes(r) and not newest_at_a_bound(r)), key=penalised)
-        return simple[0] if simple and penalised(simple[0]) - penalised(final) <= self.settings.margin else final
+        def exchanged(joint: Refit) -> Sequence[Candidate]:
+            return (member,) if joint is final else joint.candidates[-1:]
+
+        rivals = sorted(self.in_place_of(final, member), key=penalised)
+        return [r for r in rivals if len(confusable_set([final, r], inflation, dof, self.settings.margin, exchanged)) == 2]
+
+    def settled(self, final: Refit) -> Refit:
+        """A joint fit in which no member gives way to another in its place."""
+        for _ in range(MOST_EXCHANGES if len(final.candidates) > 1 else 0):
+            better = [r for c in final.candidates for r in self.in_place_of(final, c) if self.gives_way(final, c, r)]
+            if not better:
+                break
+            final = min(better, key=penalised)
+        return final
+
+    def gives_way(self, final: Refit, member: Candidate, rival: Refit) -> bool:
+        """Whether ``rival``, with another effect in place of ``member``, is plainly better; or as good, where the member ends at a bound or has a shape of
+        which nothing is known, so that it stands for a simpler one."""
+        worse, simple, plain = penalised(rival) - penalised(final), is_settled(final, [member]), is_settled(rival, rival.candidates[-1:])
+        if plain and not simple:
+            return worse <= self.settings.margin
+        return plain == simple and worse < -self.settings.margin
 
     def in_place_of(self, final: Refit, member: Candidate) -> list[Refit]:
         """Joint fits with other effects in place of ``member``; those that are near are fitted in earnest like ``final``."""
+        key = frozenset(c.name for c in final.candidates), member.name
+        if key not in self.in_place:
+            self.in_place[key] = self.replacements(final, member)
+        return self.in_place[key]
+
+    def replacements(self, final: Refit, member: Candidate) -> list[Refit]:
         rest = [c.name for c in final.candidates if c is not member]
         rest_fit = self.refits.fit(rest)
         more = screen(self.space, self.candidates, self.columns, rest_fit.fit, self.settings.seed, self.settings.draws, exclude=rest)
         own = {p.name: final.fit.values[p.name] for c in final.candidates if c is not member for p in c.parameters}
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
-        chosen = [s for s in few_of_each(more.scores)[:4] if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
+        others = [s for s in more.scores if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
+        chosen = [s for s in few_of_each(more.scores)[:4] if s in others]
         least = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member)
         near = least + self.refits.gained_in_earnest(final)
-        rivals = self.tried(f"fitting in place of {member.name}", lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
+        what = f"fitting in place of {member.name}"
+        rivals = self.tried(what, lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
+        # Of what comes near all forms that show as much: four springs look alike in a loop.
+        alike = {c.name.partition(".")[0] for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
+        twins = [s for s in others if s not in chosen and s.name.partition(".")[0] in alike]
+        rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
         return [self.as_reported(least, r) if r.fit.chi2 < near else r for r in rivals]

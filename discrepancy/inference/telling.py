@@ -16,12 +16,14 @@ from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.beside_base import WIDER, widened
-from discrepancy.inference.refit.confusable import canonical_correlation
+from discrepancy.inference.refit.confusable import canonical_correlation, penalised
 from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
-from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits
+from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits, StandIn
 from discrepancy.problem import BASE, Candidate, Parameter
 
+# Chi-square by which two fits are not told to differ.
+SAME_CHI2 = 0.05
 # What shows less of an effect than this share of what was measured says nothing of its size.
 SHOWN = 0.05
 
@@ -64,7 +66,7 @@ class Teller:
 
     def diagnosis(
         self, verdict: str, reason: str, members: Sequence[Refit], rivals: Sequence[Refit], captured: float, leftover: dict[str, Any],
-        p_screen: float, p_local: float, alternatives: dict[str, list[str]], judge: Callable[[Refit], HeldOut | None] | None,
+        p_screen: float, p_local: float, alternatives: Mapping[str, Sequence[Refit]], judge: Callable[[Refit], HeldOut | None] | None,
     ) -> Diagnosis:  # fmt: skip
         """Everything that is told, in plain data."""
         effects = []
@@ -78,11 +80,13 @@ class Teller:
             factors = {} if verdict == STOPPED else self.beside_base(member)
             for c in (c for c in member.candidates if c.part != BASE):
                 gain = self._gain_of(member, c) if several else member.gain
-                bounds = tuple(p.name for p in c.parameters if p.name in member.fit.at_bounds)
+                # What the data say nothing about is anywhere in its range, and stands where it stood.
+                bounds = tuple(p.name for p in c.parameters if numbers[p.name].at_bound)
                 if bounds:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
                 share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
                     captured * member.gain / max(members[0].gain, 1e-300)
+                warnings += told_together(c, numbers)
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
@@ -96,15 +100,18 @@ class Teller:
             effects.sort(key=lambda e: -e.gain)
         # A number of the base that is named is no rival either.
         names = {e.name for e in effects} | {c.name for m in members for c in m.candidates if c.part == BASE}
+        stand_ins = {name: [self.stand_in(r, members[0]) for r in others] for name, others in alternatives.items()}
+        standing = {c.name for others in alternatives.values() for r in others for c in r.candidates[-1:]} if several else set()
         rejected: list[dict[str, Any]] = []
         least = min((r.fit.chi2 for r in rivals), default=0.0)
         for r in rivals:
-            if r.name not in names:
+            if r.name not in names | standing:
                 worse = r.fit.chi2 - (members[0].fit.chi2 if members else least)
-                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": why_not(r, members[0], worse) if members else
-                                 "not significant after correction for multiplicity"})
+                why = why_not(r, members[0], worse, "all that is named" if several else "") if members else "not significant after correction for multiplicity"
+                why = f"alone {why}" if several else why
+                rejected.append({"name": r.name, "chi2_difference": float(worse), "reason": why})
         for s in self.scores.values():
-            if s.name not in names and not any(x["name"] == s.name for x in rejected):
+            if s.name not in names | standing and not any(x["name"] == s.name for x in rejected):
                 rejected.append({"name": s.name, "chi2_difference": None, "reason": f"score test: {chance(s.p_adjusted)} over all effects, "
                                  f"explains {chi_text(s.statistic)} of chi-square alone"})
         if not members:
@@ -126,11 +133,22 @@ class Teller:
         warnings += [f"{p.description or p.name}: {fit.values[p.name]:.3g} {p.unit}, which is {abs(fit.values[p.name] - p.off) / p.prior:.1f} times"
                      f" what was assumed of it ({p.off:.3g} +- {p.prior:.2g}): the base model is off there"
                      for p in base.parameters if p.prior and not p.of_base and abs(fit.values[p.name] - p.off) > UNLIKELY * p.prior]
-        return Diagnosis(verdict, effects, told, confusable, alternatives, correlations, rejected, self.localisation.to_dict(), leftover,
+        plainly = {name: [r.candidates[-1].name for r in others] for name, others in alternatives.items()}
+        return Diagnosis(verdict, effects, told, confusable, plainly, correlations, rejected, self.localisation.to_dict(), leftover,
                          float(captured), float(p_screen), float(p_local), held_out, {p.name: fit.values[p.name] for p in base.parameters},
                          {k: s.to_dict() for k, s in self.space.noise.streams.items()}, warnings, self.space.predictions.calls,
                          time.perf_counter() - self.started, reason,
-                         Fits(self.space, list(members), list(rivals)))
+                         Fits(self.space, list(members), list(rivals)), stand_ins=stand_ins)
+
+    def stand_in(self, joint: Refit, first: Refit) -> StandIn:
+        """What could stand in place of one that is named, the last of ``joint``."""
+        candidate = joint.candidates[-1]
+        numbers = {e.name: e for e in estimates(self.space, joint, self.coverage, self.inflation(joint))}
+        worse = float(joint.fit.chi2 - first.fit.chi2)
+        factors = self.beside_base(joint)
+        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+                   for p in by_weight(self.space, joint, candidate)}
+        return StandIn(candidate.name, told_of, worse, why_not(joint, first, worse))
 
     def _gain_of(self, joint: Refit, candidate: Candidate) -> float:
         """What one of several effects adds to the others."""
@@ -169,10 +187,21 @@ def meaning(p: Parameter) -> str:
     return p.description.removesuffix(f" ({p.off:g}: off)")
 
 
+def told_together(candidate: Candidate, numbers: Mapping[str, Estimate]) -> list[str]:
+    """Of parameters of an effect that are told only in combination, that they are."""
+    sets = dict.fromkeys(tuple(sorted([p.name, *numbers[p.name].others])) for p in candidate.parameters if numbers[p.name].others)
+    return [
+        f"{candidate.name}: the fitted runs tell {' and '.join(names)} only together, for what one has less another makes up for; each may be anywhere in its"
+        " interval" for names in sets
+    ]  # fmt: skip
+
+
 def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:
     """The interval with the base model's numbers free within their ranges, where that is another one."""
-    factor = factors.get(p.name, 1.0)
-    return {"interval_with_base": list(widened(estimate.interval, estimate.value, factor, (p.lower, p.upper)))} if factor > WIDER else {}
+    # What the data say nothing about is not known less with them.
+    factor = factors.get(p.name, 1.0) if np.isfinite(estimate.deviation) else 1.0
+    core = estimate.core or (estimate.value, estimate.value)
+    return {"interval_with_base": list(widened(estimate.interval, core, factor, (p.lower, p.upper)))} if factor > WIDER else {}
 
 
 def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None, str]:
@@ -180,13 +209,15 @@ def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None,
     if len(members) < 2:
         return None, ""
     worse = float(member.fit.chi2 - members[0].fit.chi2)
-    return worse, "" if member is members[0] else f"{why_not(member, members[0], worse)} than {members[0].name}"
+    return worse, "" if member is members[0] else why_not(member, members[0], worse, members[0].name)
 
 
-def why_not(rival: Refit, first: Refit, worse: float) -> str:
-    """Why a rival whose chi-square lies so much above that of what stands first is turned down."""
-    if worse >= 0.0:
-        return f"fits worse by {chi_text(worse)} in chi-square"
+def why_not(rival: Refit, first: Refit, worse: float, than: str = "") -> str:
+    """How a rival whose chi-square lies so much above that of what stands first compares to it, or to what it is called."""
+    if abs(worse) < SAME_CHI2:
+        return f"fits as well{than and f' as {than}'}"
+    if worse > 0.0:
+        return f"fits worse by {chi_text(worse)} in chi-square{than and f' than {than}'}"
     more = len(rival.own) - len(first.own)
-    price = f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely"
-    return f"fits better by {chi_text(-worse)} in chi-square, with {price}"
+    dear = f"{more} more parameter{'s' * (more > 1)}" if more > 0 else "values that are hardly likely" if penalised(rival) > penalised(first) else ""
+    return f"fits better by {chi_text(-worse)} in chi-square{dear and f', with {dear}'}{than and f' than {than}'}"

@@ -72,6 +72,16 @@ class Effect:
 
 
 @dataclass(frozen=True)
+class StandIn:
+    """What could stand in place of a named effect, with its estimates; ``reason``: how the fit with it compares to that which is named."""
+
+    name: str
+    parameters: dict[str, dict[str, Any]]
+    chi2_difference: float
+    reason: str
+
+
+@dataclass(frozen=True)
 class BaseError:
     """By how much the base model is off, and where: ``name`` is its number (or error), ``assumed`` what it was held to be, ``within``
     its range or assumed standard deviation; ``explains`` in chi-square."""
@@ -103,7 +113,7 @@ class Diagnosis:
     """Answer to: which effect does the model lack?
 
     ``effects`` best first: the one, the members of the set (each an alternative), or all of several.
-    ``alternatives`` maps each of several effects to those that could stand in its place.
+    ``alternatives`` maps each of several effects to those that could stand in its place, ``stand_ins`` to the same with their estimates.
     ``base_off`` says what of the base model itself is off; ``nuisances`` what was calibrated; ``visible``, where nothing
     is missing, from which size on effects would have been seen; ``fits`` keeps the objects for further use.
     """
@@ -129,11 +139,13 @@ class Diagnosis:
     reason: str
     fits: Fits = field(repr=False)
     visible: list[Visible] = field(default_factory=list)
+    stand_ins: dict[str, list[StandIn]] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
         plain = {k: v for k, v in self.__dict__.items() if k not in ("fits", "visible")}
         plain["effects"] = [e.to_dict() for e in self.effects]
         plain["base_off"] = [e.to_dict() for e in self.base_off]
+        plain["stand_ins"] = {name: [dict(s.__dict__) for s in others] for name, others in self.stand_ins.items()}
         return plain
 
 

@@ -17,7 +17,9 @@ from discrepancy.words.wording import (
     NEAREST,
     fitted_together,
     not_judged_text,
+    own_form,
     percent,
+    stand_in_text,
     together_text,
     told_apart_by,
     turned_down,
@@ -46,14 +48,15 @@ def listed(names: list[str]) -> str:
 def effects(answer: Answer) -> Section:
     """Parameters with intervals, and each effect's share."""
     rows, answers = [], []
-    for effect in answer.effects:
+    for effect, called in [pair for e in answer.effects for pair in ((e, named(e)), *((f, f"or {own_form(f)}") for f in e.get("other_forms", ())))]:
         first = True
         for name, entry in effect["parameters"].items():
             value, interval, unit = amounts.estimate(entry)
             bound = "at a bound of its range" if entry.get("at_bound") else "a bound: it is more than all that was measured" if entry.get("bound") else ""
-            bound = "; ".join(filter(None, (bound, with_base_text(entry))))
+            beside = amounts.in_words(effect.get("reason") or "") if first else ""
+            bound = "; ".join(filter(None, (beside, bound, with_base_text(entry))))
             told = told_name(name, tables_of(answer.model))
-            rows.append([named(effect) if first else "", effect["part"] if first else "", told, value, interval, unit, entry.get("meaning", ""), bound])
+            rows.append([called if first else "", effect["part"] if first else "", told, value, interval, unit, entry.get("meaning", ""), bound])
             first = False
             answers.append(whys.of_estimate(answer.diagnosis.fits.space, entry))
         for wave in waves_of(effect["parameters"]):
@@ -164,8 +167,8 @@ def confusable(answer: Answer) -> Section:
         tables.append(
             Table(
                 "In place of",
-                ["named", "could be, beside the others" if fitted_together(answer) else "could be"],
-                [[words(n), ", ".join(words(o) for o in others) or "nothing else"] for n, others in answer.diagnosis.alternatives.items()],
+                ["named", "could be, beside the others" if fitted_together(answer) else "could be", "with"],
+                [[words(n), words(s.name), with_minus(stand_in_text(answer, s))] for n, others in answer.diagnosis.stand_ins.items() for s in others],
             )
         )
     if answer.diagnosis.correlations:

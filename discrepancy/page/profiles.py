@@ -90,6 +90,9 @@ def caption_of(p: Profile, told: Mapping[str, Any], scale: Scale, level: float, 
 
     where = f"where the parabola lies below the line, {number(level)} above the best{why and f' ({why})'}"
     said = f"Band: the 95 % interval stated, {text(low, high)}{of}; {where}."
+    if told.get("told_with"):
+        why = "the fitted runs tell it only together with others, which make up for it along all of it"
+        return f"Band: the 95 % interval stated, {text(low, high)}{of}: {why}."
     first, last = crossings(p, level)
     apart = [abs((float(edge) if end is None else end) - stated) for end, edge, stated in ((first, p.values.min(), low), (last, p.values.max(), high))]
     if max(apart) <= ELSEWHERE * 0.5 * (high - low):
@@ -118,8 +121,9 @@ def figure(place: int, p: Profile, name: str, told: Mapping[str, Any] | None = N
     wide = np.linspace(float(min(reach)), float(max(reach)), 61)
     parabola: list[Any] = look.short(((wide - best) / width) ** 2)
     unit = pretty(scale.unit)
+    dotted = look.line(look.short(scale.factor * wide + scale.offset, 7), parabola, look.QUIET, 1.2, "dot", name="parabola")
     data = [
-        look.line(look.short(scale.factor * wide + scale.offset, 7), parabola, look.QUIET, 1.2, "dot", name="parabola"),
+        *([] if told and told.get("told_with") else [dotted]),
         look.line(look.short(scale.factor * fine + scale.offset, 7), look.short(between(p, best, fine)), look.NOW, 2.0, name="profile"),
         look.line(look.short(x, 7), look.short(p.chi2), look.NOW, 2.0, mode="markers", name="computed"),
     ]

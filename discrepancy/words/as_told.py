@@ -74,7 +74,11 @@ def parameter(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 def parameters(entries: Mapping[str, Mapping[str, Any]], tables: Sequence[Table]) -> dict[str, dict[str, Any]]:
     """Estimates by their structured names."""
-    return {told_name(name, tables): parameter(entry) for name, entry in entries.items()}
+    found = {}
+    for name, entry in entries.items():
+        others = {"told_with": [told_name(other, tables) for other in entry["told_with"]]} if "told_with" in entry else {}
+        found[told_name(name, tables)] = parameter(entry) | others
+    return found
 
 
 def numbers(values: Mapping[str, float], units: Mapping[str, str], tables: Sequence[Table]) -> dict[str, dict[str, Any]]:

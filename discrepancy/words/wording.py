@@ -1,7 +1,7 @@
 """What may be said of a diagnosis, in words that its numbers bear; for screen and page."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from discrepancy.alike.other_places import place_of, shortened
@@ -9,8 +9,8 @@ from discrepancy.campaign.amount import readable
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN
-from discrepancy.scales import of_estimate, of_parameter, parameter_texts, shown
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, StandIn
+from discrepancy.scales import estimate_texts, of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.words.as_told import tables_of, told_name
 from discrepancy.words.held_signals import held_signals_text
@@ -27,16 +27,36 @@ NEAREST = 6
 TONES = {BASE_OFF: "fair", SET: "fair", INCOMPLETE: "fair", UNKNOWN: "bad"}
 
 
-def variant_text(effect: dict[str, Any]) -> str:
-    """Which form of an effect it is, and at which part; empty where there is but one."""
+def variant_text(effect: Mapping[str, Any]) -> str:
+    """Which form of an effect it is, or may as well be, and at which part; empty where there is but one."""
+    return or_others(own_form(effect), effect)
+
+
+def own_form(effect: Mapping[str, Any]) -> str:
+    """The form whose values are told."""
     forms = str(effect.get("variant", "")).replace("_", " ")
     return str(effect.get("place") or "") if " + " not in forms and effect.get("place") else forms
 
 
+def or_others(own: str, effect: Mapping[str, Any]) -> str:
+    """``first stage, carrier or housing``: with the forms that fit as well, unless they are parts that look alike, which ``own`` names already."""
+    forms = [f for f in effect.get("other_forms", ()) if f["candidates"][0] not in effect.get("look_alike", ())]
+    return either([own, *map(own_form, forms)])
+
+
+def either(names: Sequence[str]) -> str:
+    return " or ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+
+
+def other_form_text(form: Mapping[str, Any]) -> str:
+    """``or carrier (fits worse by 0.2 in chi-square than support_compliance.first_stage)``"""
+    return f"or {own_form(form)}" + (f" ({form['reason']})" if form.get("reason") else "")
+
+
 def shortly(effect: dict[str, Any]) -> str:
     """The same for a headline, which names no other parts that look alike: ``variant_text`` stands below it."""
-    variant = variant_text(effect)
-    return shortened(variant, len(effect.get("other_places", ()))) if variant == effect.get("place") else variant
+    own = own_form(effect)
+    return or_others(shortened(own, len(effect.get("other_places", ()))) if own == effect.get("place") else own, effect)
 
 
 def signals_left(left: Mapping[str, float], title: Callable[[str], str] = str) -> str:
@@ -89,29 +109,37 @@ def together_text(answer: Answer) -> str:
     return f"together{base} this {share_text(answer, answer.diagnosis.captured)}" + (f"; {error}" if error else "")
 
 
-def stand_ins(answer: Answer) -> dict[str, str]:
-    """What could stand in place of each effect, as a sentence."""
+def stand_ins(answer: Answer, title: Callable[[str], str] = str) -> dict[str, str]:
+    """What could stand in place of each effect, with its values, as a sentence."""
     beside = ", beside the others," if fitted_together(answer) else ""
-    return {name: f"in place of {name}{beside} could stand: {', '.join(others)}" for name, others in answer.diagnosis.alternatives.items()}
+    return {
+        name: f"in place of {title(name)}{beside} could stand: {'; '.join(f'{title(s.name)} ({stand_in_text(answer, s)})' for s in others)}"
+        for name, others in answer.diagnosis.stand_ins.items()
+    }
+
+
+def stand_in_text(answer: Answer, other: StandIn) -> str:
+    """``effects.support_compliance.housing_compliance = 0.0175 arcmin/(N m), 95 %: 0.0174 to 0.0176; fits worse by 0.2 in chi-square``"""
+    texts = []
+    for name, entry in other.parameters.items():
+        value, interval, unit = estimate_texts(entry)
+        texts.append(f"{told_name(name, tables_of(answer.model))} = {value}{unit and f' {unit}'}, 95 %: {interval}")
+    return "; ".join([*texts, other.reason])
 
 
 def told_apart_by(answer: Answer, title: Callable[[str], str] = str) -> list[str]:
-    """What the campaign cannot tell apart, each with how much worse it fits than the first."""
-    reasons = {effect["name"]: effect.get("reason") for effect in answer.effects}
-    return [title(name) + (f" ({reasons[name]})" if reasons.get(name) else "") for name in answer.confusable]
+    """What the campaign cannot tell apart, each with its forms and how much worse it fits than the first."""
+    by_name = {effect["name"]: effect for effect in answer.effects}
+    return [title(name) + (f" ({'; '.join(told)})" if (told := apart_words(by_name.get(name, {}))) else "") for name in answer.confusable]
+
+
+def apart_words(effect: Mapping[str, Any]) -> list[str]:
+    return [text for text in (variant_text(effect) if effect.get("other_forms") else "", effect.get("reason", "")) if text]
 
 
 def turned_down(answer: Answer) -> list[dict[str, Any]]:
-    """The rivals that are no stand-ins, with the part at which they were tried; beside several effects a rival alone is held against all of them."""
-    rejected = [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
-    if not fitted_together(answer):
-        return rejected
-    standing = {name for others in answer.diagnosis.alternatives.values() for name in others}
-    return [
-        r | ({"reason": f"alone {r['reason']} than all that is named"} if r["chi2_difference"] is not None else {})
-        for r in rejected
-        if r["name"] not in standing
-    ]
+    """The rivals that are no stand-ins, with the part at which they were tried."""
+    return [r | ({"reason": f"{place}, {r['reason']}"} if (place := place_of(r["name"], answer.model)) else {}) for r in answer.diagnosis.rejected]
 
 
 def base_texts(answer: Answer) -> list[str]:

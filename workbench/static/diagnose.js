@@ -168,23 +168,25 @@ export function show(root, context) {
     doing();
   }
 
+  const parameterOf = (p) =>
+    h(
+      "div",
+      {},
+      `${p.name} = `,
+      h("b", {}, `${p.value} ${p.unit}`),
+      h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}${p.with_base ? `, ${p.with_base}` : ""} `),
+      why(p.why, p.name),
+      p.meaning ? h("div", { class: "quiet small" }, p.meaning) : null,
+    );
+
   // Which form it is, and at which part, is said once above.
   const effectOf = (e) =>
     h(
       "div",
       { style: { "margin-top": "8px" } },
       h("h3", {}, effectName(e.name) + (e.place && !answer.headline.includes(`(${e.place})`) ? ` (${e.place})` : "")),
-      e.parameters.map((p) =>
-        h(
-          "div",
-          {},
-          `${p.name} = `,
-          h("b", {}, `${p.value} ${p.unit}`),
-          h("span", { class: "quiet" }, ` 95 %: ${p.interval}${p.bound ? "; at a bound" : ""}${p.with_base ? `, ${p.with_base}` : ""} `),
-          why(p.why, p.name),
-          p.meaning ? h("div", { class: "quiet small" }, p.meaning) : null,
-        ),
-      ),
+      e.parameters.map(parameterOf),
+      (e.others ?? []).map((other) => h("div", { style: { "margin-top": "4px" } }, h("div", { class: "quiet" }, `${other.said}:`), other.parameters.map(parameterOf))),
       h("p", { class: "quiet small" }, [e.share, e.error, e.held].filter(Boolean).join("; ")),
     );
 

@@ -56,7 +56,7 @@ def widening(space: Workspace, result: Refit, free: Sequence[Parameter]) -> dict
     }  # fmt: skip
 
 
-def widened(interval: tuple[float, float], value: float, factor: float, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The interval by that factor about the value, within the parameter's bounds."""
-    low, high = (value + factor * (end - value) for end in interval)
+def widened(interval: tuple[float, float], core: tuple[float, float], factor: float, bounds: tuple[float, float]) -> tuple[float, float]:
+    """The interval by that factor about the value, or about the ends between which others make up for it (``core``), within the parameter's bounds."""
+    low, high = (inner + factor * (end - inner) for inner, end in zip(core, interval))
     return max(low, bounds[0]), min(high, bounds[1])

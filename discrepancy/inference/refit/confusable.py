@@ -1,13 +1,13 @@
 """Which effects this campaign cannot tell apart."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.special import ndtr, stdtrit
 
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.refit import UNDETERMINED, Refit
+from discrepancy.inference.refit.refit import Refit, is_untold
 from discrepancy.problem import BASE, CHAIN, Candidate, Parameter
 from fmu_src.arrays import Floats
 
@@ -54,9 +54,10 @@ def known_before(rival: Refit) -> float:
     return sum(float(np.clip(rival.covariance[k, k] / priors[p.name] ** 2, 0.0, 1.0)) for k, p in enumerate(rival.fit.parameters) if p.name in priors)
 
 
-def ends_at_a_bound(rival: Refit) -> bool:
-    """Whether a parameter ended at a bound, or a shape so near to one that the effect stands for another, simpler one."""
-    return any(_at_a_bound(rival, p) for p in rival.own)
+def ends_at_a_bound(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
+    """Whether a parameter, of some ``members`` if they are given, ended at a bound, or a shape so near to one that the effect stands for another, simpler
+    one."""
+    return any(_at_a_bound(rival, p) for c in (rival.candidates if members is None else members) for p in c.parameters)
 
 
 def newest_at_a_bound(joint: Refit) -> bool:
@@ -73,15 +74,20 @@ def _at_a_bound(rival: Refit, p: Parameter) -> bool:
     return p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name])
 
 
-def has_idle_shapes(rival: Refit) -> bool:
-    """Whether the data say nothing about one of its shapes: then it is a simpler effect in disguise."""
+def has_idle_shapes(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
+    """Whether the data say nothing about one of its shapes, or of those of some ``members``: then it is a simpler effect in disguise."""
     names = [p.name for p in rival.fit.parameters]
-    for p in (p for c in rival.candidates for p in c.shapes if p.lower > 0.0):
+    for p in (p for c in (rival.candidates if members is None else members) for p in c.shapes if p.lower > 0.0):
         k = names.index(p.name)
         deviation = float(np.sqrt(max(rival.covariance[k, k], 0.0)))
-        if rival.fit.normal[k, k] * p.scale**2 < UNDETERMINED or deviation / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower):
+        if is_untold(rival.fit, k) or deviation / rival.fit.values[p.name] > IDLE * np.log(p.upper / p.lower):
             return True
     return False
+
+
+def is_settled(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
+    """Whether it, or some ``members`` of it, stand for no simpler effect."""
+    return not ends_at_a_bound(rival, members) and not has_idle_shapes(rival, members)
 
 
 def _near_a_bound(p: Parameter, value: float) -> bool:
@@ -92,17 +98,23 @@ def _near_a_bound(p: Parameter, value: float) -> bool:
     return bool(min(np.log(p.upper / value), np.log(value / p.lower)) < NEAR * whole)
 
 
-def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float = 1e6, margin: float = MARGIN) -> list[Refit]:
+def every_member(rival: Refit) -> Sequence[Candidate]:
+    return rival.candidates
+
+
+def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float = 1e6, margin: float = MARGIN,
+                   compared: Callable[[Refit], Sequence[Candidate]] = every_member) -> list[Refit]:  # fmt: skip
     """Effects whose fit is as good as the best but for ``margin``, best first; nothing that ends at a bound stands beside others.
 
+    ``compared``: the effects of a rival by which it differs from the others; those that all have beside it speak for none.
     ``inflation`` is the leftover misfit per degree of freedom; few replicates widen the margin to
     what Student's law asks for the same probability.
     """
     if not rivals:
         return []
     ordered = sorted(rivals, key=penalised)
-    inside = [r for r in ordered if not ends_at_a_bound(r)] or ordered[:1]
-    simple = [r for r in inside if not has_idle_shapes(r)]
+    inside = [r for r in ordered if not ends_at_a_bound(r, compared(r))] or ordered[:1]
+    simple = [r for r in inside if not has_idle_shapes(r, compared(r))]
     # Where nothing simpler is near, those of which a shape is unknown stand beside one another.
     inside = simple if simple and penalised(simple[0]) - penalised(inside[0]) <= margin * max(1.0, inflation) else inside
     best = ordered[0] if penalised(inside[0]) - penalised(ordered[0]) > margin * max(1.0, inflation) else inside[0]

@@ -32,16 +32,16 @@ def by_secants(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
         variances, axes = np.linalg.eigh(covariance[np.ix_(places, places)])
         steps = axes * np.clip(np.sqrt(np.maximum(variances, 0.0)), LEAST, MOST)
         columns = fit.jacobian.copy()
-        along = np.column_stack(space.threads.map(partial(_along, space, box, part, x, places), list(steps.T)))
+        along = np.column_stack(space.threads.map(partial(_along, space, fit, part, x, places), list(steps.T)))
         columns[:, places] = along @ np.linalg.inv(steps) / part.scale
         normal = columns.T @ columns + np.diag(box.precision)
         covariance = np.linalg.pinv(normal * units, rcond=1e-11, hermitian=True)
     return columns, covariance * units
 
 
-def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequence[int], step: np.ndarray) -> np.ndarray:
+def _along(space: Workspace, fit: Fit, part: Box, x: np.ndarray, places: Sequence[int], step: np.ndarray) -> np.ndarray:
     """Change (N,) of the whitened prediction per step of the effects' parameters [scales], from both sides within their bounds."""
-    ends, parts = [], []
+    ends, parts, box = [], [], Box(fit.parameters)
     for sense in (1.0, -1.0):
         moved = x.copy()
         wanted = x[places] + sense * step * part.scale
@@ -54,4 +54,7 @@ def _along(space: Workspace, box: Box, part: Box, x: np.ndarray, places: Sequenc
             ends.append(space.residual(box.named(moved)))
         parts.append(share)
     whole = parts[0] + parts[1]
-    return (ends[1] - ends[0]) / whole if whole > 0.0 else np.zeros_like(ends[0])
+    if whole * np.linalg.norm(step) < LEAST:
+        # Between bounds to either side nothing is left but rounding.
+        return np.asarray(fit.jacobian[:, places] @ (step * part.scale))
+    return np.asarray((ends[1] - ends[0]) / whole)

@@ -10,7 +10,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.refit.refit import Refit, is_untold, valleys
 from discrepancy.problem import near
 from fmu_src.arrays import Floats
 
@@ -32,15 +32,17 @@ class Profile:
 
 def profiles(space: Workspace, result: Refit) -> list[Profile]:
     """Of every parameter of the named effects whose linear interval has a width."""
-    fit, found = result.fit, []
+    fit, found, along = result.fit, [], valleys(space, result)
     names = [p.name for p in fit.parameters]
     best = Box(fit.parameters).array(fit.values)
     for p in result.own:
         k = names.index(p.name)
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0)))
-        if not 0.0 < deviation < 0.5 * (p.upper - p.lower):
+        if not 0.0 < deviation < 0.5 * (p.upper - p.lower) or is_untold(fit, k):
             continue
-        places = np.unique(np.clip(best[k] + deviation * np.array(AWAY), p.lower, p.upper))
+        # From one end of a valley to the other.
+        core = (best[k], *along.get(p.name, ((), ()))[0])
+        places = np.unique(np.clip([min(core) if a < 0.0 else max(core) if a > 0.0 else best[k] for a in AWAY] + deviation * np.array(AWAY), p.lower, p.upper))
         others = np.array([j for j in range(len(names)) if j != k], dtype=np.intp)
         chi2 = space.threads.map(partial(moved, space, result, best, k, others), [float(value) for value in places])
         found.append(Profile(p.name, p.unit, places, np.array(chi2) - fit.chi2, deviation, p.is_direction))

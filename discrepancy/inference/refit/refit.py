@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof
-from discrepancy.inference.base_fit.fit import Fit, fit_of
+from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.effect_fit import fit_effects
 from discrepancy.inference.refit.unseen_places import without_unseen
@@ -19,6 +19,14 @@ from fmu_src.arrays import Floats
 
 UNDETERMINED = 1e-6
 """Information (in units of the parameter's scale) below which a parameter is not estimated."""
+FLAT = 0.1
+"""Chi-square that is nothing over the whole range of a parameter, or of several that make up for each other."""
+WIDEST = 1e4
+"""Range of a parameter without bounds, in its scales."""
+LEAST_SHARE = 1e-2
+"""Of a valley: what moves less is not in it."""
+ALLOWED, HALVINGS = 4.0, 5
+"""Chi-square by which a fit along a valley may be worse (two standard deviations), and how often a bent one is tried half as far."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +41,14 @@ class Estimate:
     dof: float
     at_bound: bool
     is_direction: bool = False
+    # Where it may stand with ``others`` making up for it; its interval begins at these ends.
+    core: tuple[float, float] | None = None
+    others: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         return {"value": self.value, "interval": list(self.interval), "unit": self.unit, "standard_deviation": self.deviation,
-                "degrees_of_freedom": self.dof, "at_bound": self.at_bound} | ({"direction": True} if self.is_direction else {})
+                "degrees_of_freedom": self.dof, "at_bound": self.at_bound} | ({"direction": True} if self.is_direction else {}) | (
+                {"told_with": list(self.others)} if self.others else {})
 
 
 @dataclass(frozen=True)
@@ -99,18 +111,22 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
     """Intervals by Student's law with the degrees of freedom of the noise that matters for each parameter.
 
     Parameters that cannot change sign get intervals symmetric in their logarithm.
-    ``inflation`` widens for a misfit that is left.
+    ``inflation`` widens for a misfit that is left.  Where a combination of parameters alone is told, each has all of the valley in which they make up for
+    each other.
     """
     fit = result.fit
     influence = fit.jacobian @ result.covariance
     grams = component_grams(space, influence)
     estimated = []
+    along = valleys(space, result)
     for k, p in enumerate(fit.parameters):
         if not any(p is q for q in result.own):
             continue
-        if fit.normal[k, k] * p.scale**2 < UNDETERMINED:
+        if is_untold(fit, k):
             # The data say nothing about it: the interval is its range.
-            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), 1.0, False, p.is_direction))
+            without = fit.normal[k, k] * p.scale**2 < UNDETERMINED
+            dof = 1.0 if without else effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
+            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), dof, False, p.is_direction))
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
@@ -121,9 +137,59 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
             low, high = value * np.exp(-half / value), value * np.exp(half / value)
         else:
             low, high = value - half, value + half
+        core, others = along.get(p.name, ((value, value), ()))
+        low, high = low + core[0] - value, high + core[1] - value
         interval = (float(max(low, p.lower)), float(min(high, p.upper)))
-        estimated.append(Estimate(p.name, p.unit, value, deviation, interval, dof, p.name in fit.at_bounds, p.is_direction))
+        estimated.append(Estimate(p.name, p.unit, value, deviation, interval, dof, p.name in fit.at_bounds, p.is_direction, core, others))
     return estimated
+
+
+def is_untold(fit: Fit, k: int) -> bool:
+    """Whether the data say nothing about a parameter: over its whole range, by the curvature where it stands, the chi-square hardly rises."""
+    p = fit.parameters[k]
+    return bool(fit.normal[k, k] * p.scale**2 < UNDETERMINED or fit.normal[k, k] * (p.upper - p.lower) ** 2 < FLAT)
+
+
+def valleys(space: Workspace, result: Refit) -> dict[str, tuple[tuple[float, float], tuple[str, ...]]]:
+    """Of each parameter of the effects that is told only together with others: the range over which these make up for it, and their names.
+
+    Friction and what it has more at rest show in a loop as their sum: neither has a curvature of its own, and which of both is how large no inverse says.
+    """
+    fit, box = result.fit, Box(result.fit.parameters)
+    told = [k for k in range(len(fit.parameters)) if not is_untold(fit, k)]
+    own = {p.name for p in result.own}
+    if sum(fit.parameters[k].name in own for k in told) < 2:
+        return {}
+    x = box.array(fit.values)
+    widths = np.array([min(p.upper - p.lower, WIDEST * p.scale) for p in (fit.parameters[k] for k in told)])
+    values, vectors = np.linalg.eigh(fit.normal[np.ix_(told, told)] * np.outer(widths, widths))
+    flat = vectors[:, values < FLAT]
+    found = {}
+    for j, k in enumerate(told):
+        way = flat @ flat[j]
+        if fit.parameters[k].name not in own or way[j] < LEAST_SHARE:
+            continue
+        way = np.where(np.abs(way) < LEAST_SHARE * way[j], 0.0, way) / way[j]
+        others = tuple(fit.parameters[told[i]].name for i in np.flatnonzero(way) if i != j)
+        if others:
+            step = np.zeros(len(x))
+            step[told] = way * widths
+            ends = [float(x[k] + step[k] * _followed(space, fit, box, x, sense * step) * sense) for sense in (-1.0, 1.0)]
+            found[fit.parameters[k].name] = (ends[0], ends[1]), others
+    return found
+
+
+def _followed(space: Workspace, fit: Fit, box: Box, x: Floats, step: Floats) -> float:
+    """How many of ``step`` the parameters can go before one of them is at its bound, or the fit is worse than an interval allows."""
+    moves = step != 0.0
+    far = float(np.min(np.where(step > 0.0, box.upper - x, box.lower - x)[moves] / step[moves]))
+    for _ in range(HALVINGS):
+        there = np.clip(x + far * step, box.lower, box.upper)
+        residual = space.residual(box.named(there))
+        if float(residual @ residual) + box.prior_cost(there) < fit.chi2 + ALLOWED:
+            return far
+        far *= 0.5
+    return 0.0
 
 
 def drop_cost(result: Refit, candidate: Candidate) -> float:
