@@ -213,17 +213,18 @@ def is_own(file: "ModelFile", target: Path) -> bool:
 
 
 def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
-    """An answer on the screen, or as JSON with ``more``, then as a page: what a page takes, or lacks, keeps nobody from the answer."""
+    """An answer as page and on the screen, or as JSON with ``more``: on the screen whatever becomes of the page, and the page whoever reads no further."""
     from cli.screen import json_text
     from cli.show.comparison import show_answer
     from discrepancy.words.standing_notes import standing_notes
 
-    if options.json:
-        json_text(answer.as_json() | more)
-    else:
-        show_answer(answer, standing_notes(answer.model.campaign))
-    sys.stdout.flush()
-    write_html(options, answer)
+    try:
+        write_html(options, answer)
+    finally:
+        if options.json:
+            json_text(answer.as_json() | more)
+        else:
+            show_answer(answer, standing_notes(answer.model.campaign))
 
 
 def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = GOES_ON, **more: object) -> int:
