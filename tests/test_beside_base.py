@@ -69,4 +69,4 @@ def test_where_the_base_has_no_such_number_nothing_is_said():
 
 
 def test_a_wider_interval_stays_within_the_bounds():
-    assert widened((0.9, 1.3), 1.0, 2.0, (0.0, 1.4)) == pytest.approx((0.8, 1.4))
+    assert widened((0.9, 1.3), (1.0, 1.0), 2.0, (0.0, 1.4)) == pytest.approx((0.8, 1.4))

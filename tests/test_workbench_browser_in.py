@@ -105,32 +105,6 @@ def test_a_unit_is_refused_where_it_is_typed_and_a_scale_stays(bench, tmp_path):
     assert page.get_by_label("scale of Verdrehung [arcmin]").input_value() == "1/3437.75" and "scale = 0.0002908" in page.locator("pre.file").text_content()
 
 
-def test_saving_says_at_once_that_it_is_at_work_and_can_be_clicked_again_where_it_was_refused(bench, tmp_path):
-    """For seconds nothing moved."""
-    page, held = dropped(bench, tmp_path), []
-    page.select_option("#measured", "RV20E-121")
-    page.get_by_role("combobox", name="locked").select_option("output")
-    page.locator("#save:enabled").wait_for()
-
-    def asked(route):
-        held.append(route)
-
-    page.route("**/in/save", asked)
-    page.click("#save")
-    page.locator("#save:disabled", has_text="Saving …").wait_for(timeout=500)
-    assert page.locator("#saving progress").is_visible()
-    while not held:
-        page.wait_for_timeout(50)
-    held[0].fulfill(status=400, json={"fault": "the disk is full"})
-    page.get_by_text("the disk is full").wait_for()
-    page.locator("#save:enabled", has_text="Save and compare").wait_for()
-    assert page.locator("#saving progress").count() == 0
-    page.unroute("**/in/save")
-    page.click("#save")
-    page.locator("#tab-look[aria-selected=true]").wait_for()
-    assert (bench.folder / "campaign.toml").is_file()
-
-
 def test_from_the_doubt_about_a_locked_input_a_click_leads_to_its_cell_where_mean_may_be_typed(bench, tmp_path):
     """Before saving, after it, and where campaign.toml was written by hand."""
     page = dropped(bench, tmp_path)

@@ -137,6 +137,7 @@ export function show(root, context) {
     },
     wish,
     mend,
+    inTurn,
     putIn: (...given) => putIn(...given),
     context,
     faults,

@@ -52,14 +52,15 @@ function open({ proposal: { doubts }, saved, same }) {
 
 // The row may be drawn anew meanwhile: what it says stands in the bag.
 async function save(bag, compare) {
-  const { data, context, faults } = bag,
+  const { data, context, faults, inTurn } = bag,
     told = (saving) => {
       bag.saving = saving;
       const row = document.getElementById("saving");
       if (row) fill(bag, row);
     };
   told(true);
-  const found = await context.act(post("in/save"), faults);
+  // After what was corrected before: else that would be saved as it was, and its answer would clear away what is said here.
+  const found = await inTurn(() => context.act(post("in/save"), faults));
   if (found) await context.act(post("state", { model: context.state.view.model || data.proposal.reducer }), faults);
   told(false);
   if (found) compare();
