@@ -39,9 +39,9 @@ from fmu_src.threads import Once  # noqa: E402
 SEED = 7
 # Three quarters of the time go into these: laws of friction and of gains, the stronger ones of some laws, two laws with rivals, two whose shape
 # takes long to find.
-DEAR = {26, 27, 28, 30, 31, 32, 33, 34, 38, 39, 40, 41, 42, 43, 46, 47, 48, 49, 51}
+DEAR = {26, 27, 28, 30, 31, 32, 33, 34, 38, 39, 40, 41, 42, 43, 46, 47, 48, 49}
 PLANS = {"quick": [t for t in reduced_plan(SEED) if t.number not in DEAR], "reduced": reduced_plan(SEED)}
-LEAST = {"quick": 42, "reduced": 60}
+LEAST = {"quick": 43, "reduced": 60}
 # Shares of hidden effects that are found first, and that are in the set named; of outside laws that are not plainly named.
 FIRST, IN_SET, OUTSIDE_SEEN = ({"quick": a, "reduced": b} for a, b in ((0.9, 0.65), (0.9, 0.85), (0.75, 0.6)))
 FORBIDDEN = ("rv_plant.effects", "wear_fmu.effects", "discrepancy.effects", "discrepancy.prediction", "discrepancy.inference")
