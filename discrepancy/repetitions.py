@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from discrepancy.problem import Record
+from discrepancy.rounding import jumps_of
 from fmu_src.arrays import Floats
 
 # Largest of n deviations from the median over their median (times 1.4826): what normal noise passes once in 20 and in 200 groups.
@@ -239,17 +240,11 @@ def usual_deviations(repeated: Sequence[Sequence[Record]]) -> dict[tuple[str, st
 
 def least_of(members: Sequence[Record], what: str, sizes: Mapping[str, Floats]) -> float:
     """Within so much of each other sizes agree, whatever the others do: of what their noise makes; of means also what runs span, for a zero may jump."""
-    noise = float(np.median([fast_noise(np.asarray(r.values, float)) for r in members]))
+    noise = float(np.median([jumps_of(values[np.isfinite(values)]) for values in (np.asarray(r.values, float) for r in members)]))
     stated = max(noise, *(r.stated_noise or 0.0 for r in members))
     if what != MEAN:
         return STATED * stated
     return max(STATED * max(stated, *(r.zero_noise for r in members)), float(np.median(sizes[SPAN])))
-
-
-def fast_noise(values: Floats) -> float:
-    """Standard deviation of what jumps from sample to sample; 0 of a few numbers."""
-    values = values[np.isfinite(values)]
-    return 1.4826 * float(np.median(np.abs(np.diff(values, 3)))) / float(np.sqrt(20.0)) if len(values) >= SERIES else 0.0
 
 
 def distances(sizes: Floats, common: float, count: int, least: float = 0.0) -> Floats:

@@ -8,7 +8,7 @@ import numpy as np
 
 from discrepancy.prediction.support import COARSEST
 from discrepancy.problem import ERROR, FREE_ZERO, ORDERS, Record
-from discrepancy.rounding import noise_of
+from discrepancy.rounding import SERIES, jumps_of, noise_of
 from fmu_src.arrays import Floats
 
 # What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
@@ -164,7 +164,4 @@ def scatter_of_orders(records: Sequence[Record]) -> float:
 
 def fast_noise(values: Floats) -> float:
     """Standard deviation of what jumps from sample to sample, at least that of rounding."""
-    if len(values) < 8:
-        return 0.0
-    third = np.diff(values, 3)
-    return float(max(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0), noise_of(values)))
+    return max(jumps_of(values), noise_of(values)) if len(values) >= SERIES else 0.0

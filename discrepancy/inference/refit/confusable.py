@@ -62,7 +62,7 @@ def ends_at_a_bound(rival: Refit, members: Sequence[Candidate] | None = None) ->
 
 def newest_at_a_bound(joint: Refit) -> bool:
     """The same of the effect that came last to a joint fit."""
-    return any(_at_a_bound(joint, p) for p in joint.candidates[-1].parameters)
+    return ends_at_a_bound(joint, joint.candidates[-1:])
 
 
 def newest_does_nothing(joint: Refit) -> bool:
