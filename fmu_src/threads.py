@@ -1,16 +1,16 @@
 """Work shared between threads of this process: compiled kernels run beside each other, Python's own code in turn.
 
-Inside shared work nothing is shared further, so that whoever shares need not know who else does.  Context variables are there what they
-were where the work was asked for.
+Whoever shares need not know who else does: never more threads work than there are to be.  Context variables are there what they were where the
+work was asked for.
 """
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future
 from contextlib import contextmanager
-from contextvars import ContextVar, copy_context
+from contextvars import Context, ContextVar, copy_context
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from typing import Generic, ParamSpec, TypeVar
 
 from fmu_src.progress import task
 
@@ -56,13 +56,59 @@ def giving_way(to: Callable[[], bool]) -> Iterator[None]:
         GIVES_WAY.reset(before)
 
 
+# Of each thread the ``Threads`` whose shared work it does.
+HERE = threading.local()
+
+
+class Share(Generic[Item, Result]):
+    """One piece of shared work: every item is taken once, by whoever is free."""
+
+    def __init__(self, function: Callable[[Item], Result], work: Sequence[Item]):
+        self.function, self.work = function, work
+        self.results: dict[int, Result] = {}
+        self.places = iter(range(len(work)))
+        self.left = len(work)
+        self.problem: BaseException | None = None
+        self.lock = threading.Lock()
+
+    def take(self) -> int | None:
+        """The place of the next item; None if all are taken, or no more are wanted."""
+        with self.lock:
+            place = None if self.problem else next(self.places, None)
+            self.left -= place is not None
+            return place
+
+    def do(self, context: Context | None = None) -> None:
+        """Items until none is left, each in a copy of the ``context`` if there is one."""
+        while (place := self.take()) is not None:
+            self.one(place, context)
+
+    def one(self, place: int, context: Context | None = None) -> None:
+        try:
+            item = self.work[place]
+            self.results[place] = context.copy().run(self.function, item) if context else self.function(item)
+        except BaseException as problem:
+            with self.lock:
+                self.problem = self.problem or problem
+
+    def ended(self) -> list[Result]:
+        """The results in the order of the items, or the first problem."""
+        if self.problem:
+            raise self.problem
+        return [self.results[place] for place in range(len(self.work))]
+
+
 class Threads:
-    """``jobs`` threads; with one, everything happens where it is asked for."""
+    """``jobs`` threads; with one, everything happens where it is asked for.
+
+    Work inside of shared work is done by the thread that asks for it, and by those that have nothing else to do meanwhile.
+    """
 
     def __init__(self, jobs: int = 1):
         self.jobs = jobs
         self.stopped = False
-        self.here = threading.local()
+        self.busy = 0
+        self.lock = threading.Lock()
 
     def __getstate__(self) -> dict[str, int]:
         """A thread goes nowhere; their number does."""
@@ -71,23 +117,78 @@ class Threads:
     def __setstate__(self, state: dict[str, int]) -> None:
         self.__init__(state["jobs"])  # type: ignore[misc]
 
+    @property
+    def inside(self) -> bool:
+        """Whether this thread does shared work."""
+        return getattr(HERE, "threads", None) is self
+
     def map(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         """``function`` of every item, in their order.  The first exception is raised when all threads have come to rest."""
         work = list(items)
-        if self.jobs < 2 or len(work) < 2 or getattr(self.here, "inside", False):
+        if self.jobs < 2 or len(work) < 2:
             return [function(item) for item in work]
-        with ThreadPoolExecutor(self.jobs, "rvwear") as pool:
-            try:
-                # Ctrl-C may come before all are handed out.
-                futures: list[Future[Result]] = [pool.submit(copy_context().run, self.inside, function, item) for item in work]
-                return [future.result() for future in futures]
-            except BaseException:
-                # An error, or Ctrl-C: what has not begun does not begin, the rest ends at its next prediction.
+        share = Share(function, work)
+        return self.helped(share) if self.inside else self.waited_for(share)
+
+    def waited_for(self, share: Share[Item, Result]) -> list[Result]:
+        """What all threads make of the work, while this one can hear Ctrl-C."""
+        helpers = [self.helper(share, outermost=True) for _ in range(min(self.jobs, len(share.work)))]
+        # All of them, before the first has work of its own to share.
+        self.works(len(helpers))
+        started = 0
+        try:
+            for helper in helpers:
+                helper.start()
+                started += 1
+            for helper in helpers:
+                helper.join()
+        except BaseException as problem:
+            # What has not begun does not begin, the rest ends at its next prediction.
+            share.problem, self.stopped = problem, True
+            self.works(started - len(helpers))
+            for helper in helpers[:started]:
+                helper.join()
+        finally:
+            self.stopped = False
+        return share.ended()
+
+    def helped(self, share: Share[Item, Result]) -> list[Result]:
+        """What this thread makes of the work, helped by those that are free."""
+        helpers: list[threading.Thread] = []
+        while (place := share.take()) is not None:
+            if share.left and self.takes_room():
+                helpers.append(self.helper(share))
+                helpers[-1].start()
+            share.one(place)
+        for helper in helpers:
+            helper.join()
+        return share.ended()
+
+    def helper(self, share: Share[Item, Result], outermost: bool = False) -> threading.Thread:
+        """A thread that does items of a share until none is left."""
+        context = copy_context()
+
+        def work() -> None:
+            HERE.threads = self
+            share.do(context)
+            self.works(-1)
+            # The others end at their next prediction.
+            if outermost and share.problem:
                 self.stopped = True
-                pool.shutdown(wait=True, cancel_futures=True)
-                raise
-            finally:
-                self.stopped = False
+
+        return threading.Thread(target=work, name="rvwear")
+
+    def works(self, more: int) -> None:
+        """So many ``more`` threads work than did."""
+        with self.lock:
+            self.busy += more
+
+    def takes_room(self) -> bool:
+        """Whether one more thread may work; then it counts as working."""
+        with self.lock:
+            free = self.busy < self.jobs
+            self.busy += free
+            return free
 
     def told(self, what: str, function: Callable[[Item], Result], items: Iterable[Item], named: Callable[[Item], str]) -> list[Result]:
         """``map``, telling whoever listens what is being tried and how much of it is done."""
@@ -102,14 +203,22 @@ class Threads:
 
             return self.map(one, work)
 
-    def inside(self, function: Callable[[Item], Result], item: Item) -> Result:
-        self.here.inside = True
-        return function(item)
-
     def check(self) -> None:
         """To be called now and then in long work: ends it if nobody waits for it."""
-        if self.stopped and getattr(self.here, "inside", False):
+        if self.stopped and self.inside:
             raise Stopped
+
+
+def waited_for(future: Future[object]) -> object:
+    """What another thread makes; who waits for it leaves room for a third."""
+    threads: Threads | None = getattr(HERE, "threads", None)
+    if threads is None:
+        return future.result()
+    threads.works(-1)
+    try:
+        return future.result()
+    finally:
+        threads.works(1)
 
 
 class Once:
@@ -164,7 +273,7 @@ class Once:
                 future.set_exception(problem)
                 raise
         try:
-            return future.result()  # type: ignore[return-value]
+            return future.result() if own or future.done() else waited_for(future)  # type: ignore[return-value]
         except Stopped:
             if own:
                 raise

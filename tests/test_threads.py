@@ -28,14 +28,54 @@ def test_context_goes_along_and_stays_apart():
     assert place.get() == "here"
 
 
-def test_work_inside_of_work_stays_on_its_thread():
-    threads = Threads(2)
+def test_work_inside_of_work_goes_to_threads_that_have_nothing_else_to_do():
+    """One long item beside short ones: its own work is shared, and never do more threads work than there are to be."""
+    threads, at_work, most, lock = Threads(2), [], [], threading.Lock()
 
     def inner(n):
+        with lock:
+            at_work.append(n)
+            most.append(len(at_work))
+        time.sleep(0.005)
+        with lock:
+            at_work.remove(n)
+        return n, threading.get_ident()
+
+    def outer(n):
+        found = threads.map(inner, range(20 * n, 20 * n + (20 if n == 0 else 2)))
+        return [k for k, _ in found], {who for _, who in found}
+
+    results = threads.map(outer, range(3))
+    assert [places for places, _ in results] == [list(range(20)), [20, 21], [40, 41]]
+    assert len(results[0][1]) == 2 and max(most) == 2
+
+
+def test_who_waits_for_another_leaves_room_for_a_third():
+    """Two ask for the same run, which has parts: one would wait while the other makes them alone."""
+    threads, kept = Threads(2), Once(10)
+
+    def part(n):
+        time.sleep(0.005)
         return threading.get_ident()
 
-    for outside, inside in threads.map(lambda n: (threading.get_ident(), threads.map(inner, range(3))), range(4)):
-        assert set(inside) == {outside}
+    found = threads.map(lambda n: kept.get("run", lambda: set(threads.map(part, range(20)))), range(2))
+    assert len(found[0]) > 1 and found[0] == found[1]
+    assert threads.busy == 0
+
+
+def test_a_problem_inside_of_work_is_that_of_who_asked():
+    """Values at which the reducer finds no equilibrium end no search."""
+    threads = Threads(2)
+
+    def outer(n):
+        try:
+            threads.map(lambda k: 1 // (k - 3), range(6))
+        except ZeroDivisionError:
+            return n
+        raise AssertionError
+
+    assert threads.map(outer, range(3)) == [0, 1, 2]
+    assert threads.busy == 0
 
 
 @pytest.mark.parametrize("problem", [ValueError("bad"), KeyboardInterrupt()])
@@ -44,6 +84,8 @@ def test_what_nobody_waits_for_ends_at_its_next_look(problem):
 
     def work(n):
         if n == 0:
+            # The other has begun.
+            time.sleep(0.02)
             raise problem
         try:
             for _ in range(5000):

@@ -1,7 +1,7 @@
 """Which effects are fitted, alone and together: what may win alone, further ones beside it, and what each could be replaced by."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
 
@@ -106,20 +106,31 @@ class Selection:
         enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
         twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
-        fits = self.along_valleys(fits)
-        widened = partial(self.refits.widened, least=self.near(fits[0]))
-        fits = sorted([*self.tried("fitting from other starts", widened, fits[:FOREMOST]), *fits[FOREMOST:]], key=penalised)
+        rates = {c.name: rate for k, c in enumerate(self.candidates) if c.name in self.scores and (rate := exchange(self.columns, k, c)) is not None}
+        # Of a large effect much is left until it is fitted in earnest.
+        if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
+            fits = self.along_valleys(fits, rates)
+        fits = self.widely(fits)
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
+        if fits[0].candidates[0].name not in rates and leaves_some(first[0].fit, first[0].gain):
+            fits = [fits[0], *self.widely(self.along_valleys(fits[1:], rates))]
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
 
-    def along_valleys(self, fits: list[Refit]) -> list[Refit]:
-        """``fits``, those of effects two amplitudes of which do nearly the same from wherever their valley goes on; not where noise is all that is left."""
-        if not leaves_some(fits[0].fit):
-            return fits
-        rates = {c.name: rate for k, c in enumerate(self.candidates) if c.name in self.scores and (rate := exchange(self.columns, k, c)) is not None}
+    def widely(self, fits: list[Refit]) -> list[Refit]:
+        """``fits``, the foremost from other starts too; not those that leave as little as one that leaves no more than noise: a better one would only
+        follow the noise."""
+        if not fits:
+            return []
+        enough = -np.inf if leaves_some(fits[0].fit) else fits[0].fit.chi2 + self.settings.margin
+        chosen = [*fits[:1], *(f for f in fits[1:FOREMOST] if f.fit.chi2 > enough)]
+        found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(fits[0])), chosen)
+        return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
+
+    def along_valleys(self, fits: list[Refit], rates: Mapping[str, float]) -> list[Refit]:
+        """``fits``, those of effects two amplitudes of which do nearly the same (``rates``: see ``bent.exchange``) from wherever their valley goes on."""
         found = self.tried("fitting along valleys", lambda s: self.refits.along_valley(s.name, rates[s.name]), [self.scores[name] for name in rates])
         return sorted([*found, *(f for f in fits if f.candidates[0].name not in rates)], key=penalised)
 

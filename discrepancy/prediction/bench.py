@@ -17,8 +17,9 @@ from discrepancy.prediction.twins import OF_CHANGE, Places, Twins, corners, plac
 from discrepancy.prediction.units import TOLERANCE, Condition
 from discrepancy.problem import ERROR, NEAR, ORDERS, Record
 from fmu_src.arrays import Floats, copied
-from fmu_src.threads import Once
+from fmu_src.threads import Once, Threads
 from reducers.reducer import Reducer
+from rv_plant.effects import EFFECTS
 from studies import coupled
 from studies.hysteresis import LOST_MOTION_SHARE, MEMORY
 from wear_fmu import accumulator
@@ -45,6 +46,11 @@ LEAST_POSITIONS = 4
 Starts = tuple[Floats, Floats]
 # Turning of the cranks [rad] between two equilibria that is not divided.
 LARGEST_CRANK_STEP = 1e3
+# Equilibria that are worth a thread of their own; always parted so, for the same angles are the same whoever computes them.
+PART = 1024
+# Amplitudes beside which a running reducer is what its way has made of it: those of effects with states (friction's springs remember only while the
+# input is held), and that with which cages lag behind.
+RUNNING_MEMORY = ["skid_share", *(p.variable.name for name, e in EFFECTS.items() if e.states and name != "stribeck_friction" for p in e.amplitudes())]
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
 MOMENT = 1e-12
 
@@ -62,6 +68,8 @@ class Bench(Lives):
         # By a record's angles those at which it is computed, if others share them.
         self.stations: Mapping[bytes, Stations] = {}
         self.twins = Twins()
+        # What shares the parts of one run.
+        self.threads = Threads()
 
     @cached_property
     def rougher(self) -> "Bench":
@@ -102,6 +110,10 @@ class Bench(Lives):
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
         return any(values.get(name, self.starts[0][name]) != 0.0 for name in MEMORY)
+
+    def forgets(self, condition: Condition, values: Mapping[str, float]) -> bool:
+        """Whether what a running bench shows at an angle does not depend on the way there."""
+        return condition.hours == 0.0 and not any(values.get(name, self.starts[0][name]) != 0.0 for name in RUNNING_MEMORY)
 
     def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS.
@@ -150,20 +162,25 @@ class Bench(Lives):
             else:
                 base = starts[-1] if starts else angles
                 similar = self.beside(key, lambda: self.running_places(condition, {}, base), starts or ()) if relevant else places
-            plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=step, z=similar[0])
-            # The wear unit of a new reducer has nothing to do.
-            wears = self.templates[1]
-            if condition.hours > 0.0:
-                wears = copied(self.worn(condition, values, condition.hours))
-                for name in ("crank_angle", "output_angle", "cage_angle"):
-                    wears[name] = wears[f"{name}_before"] = plants[name]
-                wears["acceleration"] = 0.0
             series = np.zeros((len(angles), len(coupled.COLUMNS)))
-            if condition.hours > 0.0:
-                # The profile errors of the first angle, before it counts.
-                self.put_wear(wears, plants)
-            status = coupled.sweep(plants, wears, self.durations(condition, angles), series, condition.hours > 0.0, places, similar, guessed)
-            self.check(status, plants, wears)
+
+            def along(part: slice) -> None:
+                plants = self.new_plant(condition, values, float(angles[0]), cage, largest_crank_step=step, z=similar[part][0])
+                self.turn_on(plants, float(angles[part][0] - angles[0]))
+                # The wear unit of a new reducer has nothing to do.
+                wears = self.templates[1]
+                if condition.hours > 0.0:
+                    wears = copied(self.worn(condition, values, condition.hours))
+                    for name in ("crank_angle", "output_angle", "cage_angle"):
+                        wears[name] = wears[f"{name}_before"] = plants[name]
+                    wears["acceleration"] = 0.0
+                    # The profile errors of the first angle, before it counts.
+                    self.put_wear(wears, plants)
+                durations = self.durations(condition, angles[part])
+                status = coupled.sweep(plants, wears, durations, series[part], condition.hours > 0.0, places[part], similar[part], guessed)
+                self.check(status, plants, wears)
+
+            self.threads.map(along, parts(len(angles)) if guessed and self.forgets(condition, values) else [slice(None)])
             return series, places
 
         return self.kept(key, run)
@@ -174,9 +191,15 @@ class Bench(Lives):
         relevant, before = self.relevant(values, False), self.relevant(base, False)
 
         def beside(setting: Condition, chosen: slice | Places, similar: Floats) -> Floats:
-            plants = self.new_plant(setting, values, float(angles[0]), cage, z=similar[0])
-            errors = np.zeros(len(similar))
-            self.check((coupled.sweep_beside(plants, self.durations(setting, angles[chosen]), errors, similar), 0), plants, self.templates[1])
+            passed, errors = angles[chosen], np.zeros(len(similar))
+
+            def along(part: slice) -> None:
+                plants = self.new_plant(setting, values, float(passed[0]), cage, z=similar[part][0])
+                self.turn_on(plants, float(passed[part][0] - passed[0]))
+                status = coupled.sweep_beside(plants, self.durations(setting, passed[part]), errors[part], similar[part])
+                self.check((status, 0), plants, self.templates[1])
+
+            self.threads.map(along, parts(len(passed)) if self.forgets(setting, values) else [slice(None)])
             return errors
 
         def whole(setting: Condition) -> Floats:
@@ -284,17 +307,22 @@ class Bench(Lives):
             similar = self.beside(key, lambda: self.held_places(condition, {}, torques, positions, turns)) if relevant else places
             guessed, remembers = bool(relevant), self.remembers(values)
             surfaces = self.worn(condition, values, condition.hours, turns) if worn else None
-            plants = None
-            for k, angle in enumerate(self.held_at(condition, positions)):
-                z = similar[k][0] if guessed else np.zeros(places.shape[2])
-                if plants is None or remembers or not guessed:
-                    plants = self.new_held(condition, values, angle, torques, z)
-                else:
-                    self.place(plants, angle, condition.cage, z=z, advance_before=0.0)
-                if surfaces is not None:
-                    self.put_wear(surfaces, plants)
-                status = coupled.torque_sweep(plants, torques, turning[k], places[k], similar[k], guessed)
-                self.check((status, 0), plants, self.templates[1])
+            angles = self.held_at(condition, positions)
+
+            def at(part: slice) -> None:
+                plants = None
+                for k in range(*part.indices(positions)):
+                    z = similar[k][0] if guessed else np.zeros(places.shape[2])
+                    if plants is None or remembers or not guessed:
+                        plants = self.new_held(condition, values, angles[k], torques, z)
+                    else:
+                        self.place(plants, angles[k], condition.cage, z=z, advance_before=0.0)
+                    if surfaces is not None:
+                        self.put_wear(surfaces, plants)
+                    status = coupled.torque_sweep(plants, torques, turning[k], places[k], similar[k], guessed)
+                    self.check((status, 0), plants, self.templates[1])
+
+            self.threads.map(at, parts(positions, len(torques)))
             return turning, places
 
         return self.kept(key, run)
@@ -340,6 +368,12 @@ class Bench(Lives):
         self.check((0, accumulator.step(wears, 0.0, MOMENT)), plants, wears)
         for name in ("mesh_profile_error", "roller_profile_error"):
             plants[name] = wears[name]
+
+
+def parts(count: int, equilibria: int = 1) -> list[slice]:
+    """So many angles, of so many ``equilibria`` each, in parts of about the same length."""
+    ends = np.linspace(0, count, min(count, max(1, round(count * equilibria / PART))) + 1).astype(int).tolist()
+    return [slice(*ends[k : k + 2]) for k in range(len(ends) - 1)]
 
 
 def positions_of(condition: Condition, positions: int) -> int:

@@ -82,4 +82,4 @@ def locked_ripples(bench: Bench, record: Record, values: Values, cages: Sequence
 def ripples(curve: AnyCurve, values: Values, cages: Sequence[float]) -> list[Floats]:
     """What cages that stand each of ``cages`` [rad] ahead change in a curve."""
     without = signal(curve, values)
-    return [signal(replace(curve, cage=cage), values) - without for cage in cages]
+    return curve.bench.threads.map(lambda cage: signal(replace(curve, cage=cage), values) - without, cages)

@@ -21,8 +21,8 @@ ROUGHLY = 0.15
 BANDED = 0.2
 # What is changed to first order is changed by such a share of a typical amplitude.
 STEP = 0.01
-# A level's error over that of the one before, and what it may be of the change, where finer ones are no better.
-NO_LESS, OF_JUMPS = 0.6, 0.5
+# A level's error over that of the one before, and what it may be of what is changed to first order, and of a whole change, where finer ones are no better.
+NO_LESS, OF_JUMPS, OF_WHOLE = 0.6, 0.5, 0.3
 # Finer than this there are no nodes: every sample is computed.
 EVERY_SAMPLE = 99
 # A decision holds for all values that are less far from the base model's, and for those that are this much further.
@@ -95,7 +95,8 @@ class Fineness:
             if self.rough or np.all(off <= FURTHER * distances):
                 return level
         first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
-        level = self.found(self.allowed[group], ROUGHLY if self.rough else 0.0, errs, first, banded=1.0 if self.rough or group in self.orders else BANDED)
+        share, most = (ROUGHLY, OF_WHOLE) if self.rough else (0.0, 0.0)
+        level = self.found(self.allowed[group], share, errs, first, most, banded=1.0 if self.rough or group in self.orders else BANDED)
         known.append((off, level))
         return level
 
@@ -140,7 +141,8 @@ class Fineness:
                 return EVERY_SAMPLE
             error, size = at
             least = max(allowed, share * size) * (banded if level < 0 else 1.0)
-            if error <= least or NO_LESS * before < error < most * size:
+            # Between the few nodes of a band it may be anything.
+            if error <= least or (level >= 0 and NO_LESS * before < error < most * size):
                 return level
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
             before = error

@@ -9,7 +9,7 @@ import numpy as np
 
 from discrepancy.prediction.bench import Bench, Starts
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, condition_of, places_of_zero, zero_of
-from discrepancy.prediction.curves import nodes_of_slopes, signal
+from discrepancy.prediction.curves import LEVEL_OF_SLOPES, nodes_of_slopes, signal
 from discrepancy.prediction.stations import Stations, own_stations
 from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, angle_nodes, banded_nodes
 from discrepancy.prediction.units import Condition
@@ -232,7 +232,8 @@ def error_change(bench: Bench, record: Record, values: Values, base: Values) -> 
         at = curve.support(None, base)
         there, here = ((v, curve.at_stations(zero_of(bench, record, v))) for v in (values, base))
         return curve.from_stations(curve.first_order(there, here, at.angles, at.starts), 0.0)
-    at = curve.support(nodes, values)
+    # How finely a signal must be known that noise hardly hides says nothing of slopes, of which a share is enough.
+    at = curve.support(nodes or curve.nodes(LEVEL_OF_SLOPES), values)
     change = at.samples(curve.beside(values, base, at.angles, at.starts))
     if turned:
         # The angle from which the record counts: along the curve.

@@ -82,7 +82,7 @@ class PhysicalModel(PlacedBeside):
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         self.bench = bench_of(model, present, fmus)
-        self.bench.fineness = Fineness(self.records)
+        self.bench.fineness, self.bench.threads = Fineness(self.records), self.threads
         errors = [r for r in self.records if r.quantity == ERROR and {"angle", "time"} & r.axes.keys()]
         self.bench.stations = shared_stations(errors, lambda record: angles_of(self.bench, record, 0.0))
         for effect in every_effect().values():

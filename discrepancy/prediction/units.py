@@ -130,16 +130,24 @@ class Units:
 
     def place(self, plants: np.ndarray, angle: float, cage: float = 0.0, **plant_values: float | Floats) -> None:
         """Turn a plant's input to an output angle [rad], with the cages where they have rolled with the output from 0 and ``cage`` ahead."""
-        ahead = angle - float(plants["ideal_output"][0])
-        rate = cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0])
-        plants["ideal_output"], plants["cage"] = angle, rate * within_turn(angle) + cage
         plants["ideal_output_rest"] = plants["cage_rest"] = 0.0
-        # Until it is solved there: as ideal kinematics has it.
-        plants["crank_angle"] -= self.reducer.topology.lobes * ahead
-        plants["output_angle"] += ahead
-        plants["cage_angle"] = plants["cage"]
+        self.turn_on(plants, angle - float(plants["ideal_output"][0]))
+        plants["ideal_output"] = angle
+        plants["cage"] = plants["cage_angle"] = self.cages_per_turn(plants) * within_turn(angle) + cage
         for name, value in plant_values.items():
             plants[name] = value
+
+    def turn_on(self, plants: np.ndarray, further: float) -> None:
+        """Turn a plant's input on until the output is ``further`` [rad], as ideal kinematics has it until it is solved there; the cages roll with it."""
+        plants["ideal_output"] += further
+        plants["crank_angle"] -= self.reducer.topology.lobes * further
+        plants["output_angle"] += further
+        plants["cage"] += self.cages_per_turn(plants) * further
+        plants["cage_angle"] = plants["cage"]
+
+    def cages_per_turn(self, plants: np.ndarray) -> float:
+        """Turns of the cages per turn of the output."""
+        return float(cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0]))
 
     def input_speed(self, condition: Condition) -> float:
         """Speed of the sun [rad/s] with its sign."""

@@ -30,6 +30,8 @@ STUCK = 0.02
 STILL = 2e-3
 # A search stands still by this already.
 ROUGHLY_STILL = 0.1
+# So does one that only says which of several starts is right, and from where to go on.
+ABOUT_STILL = 1.0
 # Descents from other starts than the score test's, and what these may lack of the gain at once.
 OTHERS, PROMISING = 2, 0.1
 # Chi-square by sample of a fit that leaves much, share of the base fit's of one that explains much, and how many other places such a fit starts from.
@@ -127,9 +129,9 @@ def by_own_sensitivities(space: Workspace, fit: Fit, names: tuple[str, ...]) -> 
     return polish(space, fit.parameters, fit.values, columns, names, fit.converged, fit.chi2, fresh=True)
 
 
-def from_there(space: Workspace, fit: Fit, values: Mapping[str, float]) -> Fit:
-    """The fit of the records of ``space`` from other values, all parameters together."""
-    return jointly(space, fit.parameters, values, fit.candidates)
+def from_there(space: Workspace, fit: Fit, values: Mapping[str, float]) -> dict[str, float]:
+    """About where a fit of the records of ``space`` ends from other values, all parameters together."""
+    return Box(fit.parameters).named(_walk(space, fit.parameters, values, fit.candidates, JOINT_STEPS, EXACT_EVERY, np.inf, ABOUT_STILL)[0])
 
 
 def left_by(space: Workspace, fit: Fit) -> float:
@@ -287,6 +289,16 @@ def jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[st
 
     Left where it will not come below the chi-square ``least``.
     """
+    still = ROUGHLY_STILL if space.predictions.rough else STILL
+    x, r, secants, converged = _walk(space, parameters, start, candidates, evaluations, exact_every, least, still)
+    if not secants.exact and r @ r < space.base.chi2:
+        secants.forget()
+    return fit_of(parameters, Box(parameters).named(x), r, secants.columns(x), candidates, converged)
+
+
+def _walk(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str, float], candidates: tuple[str, ...], evaluations: int,
+          exact_every: int, least: float, still: float) -> tuple[Floats, Floats, Secants, bool]:  # fmt: skip
+    """Where ``jointly`` ends, by a step that gains less than ``still``: values (p,), residual, sensitivities, whether it stands still."""
     box = Box(parameters)
     secants = Secants(box, lambda z: space.columns(parameters, box.named(z)), exact_every)
 
@@ -321,11 +333,9 @@ def jointly(space: Workspace, parameters: Sequence[Parameter], start: Mapping[st
             promised = float(2.0 * gradient @ move - move @ normal @ move)
             damping *= 0.4 if gain > 0.75 * promised else 3.0 if gain < 0.25 * promised else 1.0
             x, cost, r = trial, new, new_r
-        if gain < (ROUGHLY_STILL if space.predictions.rough else STILL):
+        if gain < still:
             if secants.exact:
                 converged = True
                 break
             secants.forget()
-    if not secants.exact and cost < space.base.chi2:
-        secants.forget()
-    return fit_of(parameters, box.named(x), r, secants.columns(x), candidates, converged)
+    return x, r, secants, converged

@@ -15,6 +15,8 @@ from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Placing
 
+# Chi-squares of two starts that show the same, one over the other less 1.
+ALIKE = 1e-6
 # Of chi-square: by so much a fit from another start is another optimum.
 BETTER = 1.0
 # Chi-square by which another zero of angles is surely the right one.
@@ -104,8 +106,11 @@ class Refits:
         known = self.fit([name])
         if explains_some(self.space, known.fit):
             with self.space.predictions.roughly():
-                fit = along_valley(self.space, known.fit, known.candidates[0], rate)
-                if fit.chi2 < known.fit.chi2 - BETTER:
+                # Fitted in earnest it would be compared with rough ones.
+                here = there(self.space, known.fit)
+                fit = along_valley(self.space, here, known.candidates[0], rate)
+                if fit.chi2 < here.chi2 - BETTER:
+                    self.final_fits.pop(frozenset([name]), None)
                     self.fitted[frozenset([name])] = finished(self.space, known.candidates, fit)
         return self.fitted[frozenset([name])]
 
@@ -179,7 +184,10 @@ class Refits:
         # A wrong zero has bent the effects: each is tried with those that suit it, and with the parts that these stand between.
         counted = [p.name for c in result.candidates for p in c.shapes if p.counts]
         places = [{**place, **parts} for place in ({}, *places) for parts in ({}, *beside(result.fit.values, counted))]
-        begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place}).values) for place in places]
+        # Turned with the discs an effect may show as it does unturned: from there the same fit would be made again.
+        left = [left_by(few, replace(result.fit, values={**result.fit.values, **place})) for place in places]
+        places = [place for k, place in enumerate(places) if not any(np.isclose(left[k], other, ALIKE) for other in left[:k])]
+        begun = [replace(result.fit, values=from_there(few, result.fit, {**result.fit.values, **place})) for place in places]
         if unseen:
             # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
             turned = [{p.name: other for p, other in half_a_turn_on(result.candidates, fit.values)} for fit in begun]
