@@ -7,6 +7,7 @@ import copy
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -372,8 +373,9 @@ class Bench(Lives):
 
 def parts(count: int, equilibria: int = 1) -> list[slice]:
     """So many angles, of so many ``equilibria`` each, in parts of about the same length."""
-    ends = np.linspace(0, count, min(count, max(1, round(count * equilibria / PART))) + 1).astype(int).tolist()
-    return [slice(*ends[k : k + 2]) for k in range(len(ends) - 1)]
+    wanted = min(count, max(1, round(count * equilibria / PART)))
+    ends = [k * count // wanted for k in range(wanted + 1)]
+    return [slice(*pair) for pair in pairwise(ends)]
 
 
 def positions_of(condition: Condition, positions: int) -> int:

@@ -12,8 +12,9 @@ from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.interpolate import CubicSpline
 
+from discrepancy.prediction.monotone import monotone_cubic
 from fmu_src.arrays import Floats
 from fmu_src.kernel import kernel
 
@@ -186,7 +187,7 @@ class TorqueNodes:
                 found[branch.samples] = at[0]
                 continue
             rising = slice(None) if torques[-1] > torques[0] else slice(None, None, -1)
-            found[branch.samples] = PchipInterpolator(torques[rising], at[rising])(inside)
+            found[branch.samples] = monotone_cubic(torques[rising], at[rising], inside)
         return found
 
     def error(self, values: Floats) -> float:
@@ -201,7 +202,7 @@ class TorqueNodes:
                 rising = slice(None) if t[-1] > t[0] else slice(None, None, -1)
                 t, y = t[rising], y[rising]
                 last = len(t) - 1 - (len(t) + 1) % 2
-                squares.append((PchipInterpolator(t[: last + 1 : 2], y[: last + 1 : 2])(t[1:last:2]) - y[1:last:2]) ** 2)
+                squares.append((monotone_cubic(t[: last + 1 : 2], y[: last + 1 : 2], t[1:last:2]) - y[1:last:2]) ** 2)
         return float(np.sqrt(np.mean(np.concatenate(squares)))) / HALVING if squares else 0.0
 
 
