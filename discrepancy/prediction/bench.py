@@ -176,7 +176,7 @@ class Bench(Lives):
                         wears[name] = wears[f"{name}_before"] = plants[name]
                     wears["acceleration"] = 0.0
                     # The profile errors of the first angle, before it counts.
-                    self.put_wear(wears, plants)
+                    self.put_wear(copied(wears), plants)
                 durations = self.durations(condition, angles[part])
                 status = coupled.sweep(plants, wears, durations, series[part], condition.hours > 0.0, places[part], similar[part], guessed)
                 self.check(status, plants, wears)
@@ -311,15 +311,15 @@ class Bench(Lives):
             angles = self.held_at(condition, positions)
 
             def at(part: slice) -> None:
-                plants = None
+                plants, worn_there = None, None if surfaces is None else copied(surfaces)
                 for k in range(*part.indices(positions)):
                     z = similar[k][0] if guessed else np.zeros(places.shape[2])
                     if plants is None or remembers or not guessed:
                         plants = self.new_held(condition, values, angles[k], torques, z)
                     else:
                         self.place(plants, angles[k], condition.cage, z=z, advance_before=0.0)
-                    if surfaces is not None:
-                        self.put_wear(surfaces, plants)
+                    if worn_there is not None:
+                        self.put_wear(worn_there, plants)
                     status = coupled.torque_sweep(plants, torques, turning[k], places[k], similar[k], guessed)
                     self.check((status, 0), plants, self.templates[1])
 
@@ -361,8 +361,7 @@ class Bench(Lives):
         return found
 
     def put_wear(self, wears: np.ndarray, plants: np.ndarray) -> None:
-        """Profile errors of worn surfaces at the present angles, to which their unit is turned without wear."""
-        wears = copied(wears)
+        """Profile errors of worn surfaces at the present angles, to which their unit (a copy that may be turned) is turned without wear."""
         for name in ("crank_angle", "output_angle", "cage_angle"):
             wears[name] = wears[f"{name}_before"] = plants[name]
         wears["acceleration"] = wears["crank_speed"] = 0.0

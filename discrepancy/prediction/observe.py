@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -95,13 +96,6 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     return found
 
 
-def loop(bench: Bench, condition: Condition, values: Values, quarter: Floats) -> tuple[Floats, Floats]:
-    """The standard test's torques and turning, the first ``quarter`` [rated torque] run twice so that the loop is closed."""
-    up, down = quarter, quarter[-2::-1]
-    way = bench.rated_load * np.concatenate([up, down, -up[1:], -down, up[1:]])
-    return way, bench.held(at_rest(bench, condition), values, way)
-
-
 def lost_motion(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
     rows = row_conditions(bench, record)
@@ -123,16 +117,24 @@ def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
 
 def middle_lines(bench: Bench, condition: Condition, values: Values, quarter: Floats) -> float:
     """Lost motion [rad] by the middle lines of the closed loop."""
-    torque, turning = loop(bench, condition, values, quarter)
-    rising = np.concatenate([[False], np.diff(torque) > 0.0])
-    middle = []
-    for torque_at in (LOST_MOTION_SHARE * bench.rated_load, -LOST_MOTION_SHARE * bench.rated_load):
-        branches = []
-        for branch in (rising, ~rising):
-            order = np.argsort(torque[branch], kind="stable")
-            branches.append(np.interp(torque_at, torque[branch][order], turning[branch][order]))
-        middle.append(np.mean(branches))
-    return float(middle[0] - middle[1])
+    way, weights = standard_test(quarter.tobytes())
+    return float(weights @ bench.held(at_rest(bench, condition), values, bench.rated_load * way))
+
+
+@lru_cache
+def standard_test(quarter: bytes) -> tuple[Floats, Floats]:
+    """Torques [rated torque] of the standard test, the first ``quarter`` run twice so that the loop is closed, and what each turning there adds to the
+    difference of the middle lines at +3 % and -3 %."""
+    up = np.frombuffer(quarter)
+    down = up[-2::-1]
+    way = np.concatenate([up, down, -up[1:], -down, up[1:]])
+    rising = np.concatenate([[False], np.diff(way) > 0.0])
+    weights = np.zeros(len(way))
+    for sign in (1.0, -1.0):
+        for branch in (np.flatnonzero(rising), np.flatnonzero(~rising)):
+            order = branch[np.argsort(way[branch], kind="stable")]
+            weights[order] += 0.5 * sign * np.array([np.interp(sign * LOST_MOTION_SHARE, way[order], one) for one in np.eye(len(order))])
+    return way, weights
 
 
 def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
