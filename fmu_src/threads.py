@@ -87,7 +87,7 @@ class Share(Generic[Item, Result]):
         try:
             item = self.work[place]
             self.results[place] = context.copy().run(self.function, item) if context else self.function(item)
-        except BaseException as problem:
+        except BaseException as problem:  # noqa: BLE001 - who waits for the work raises it
             with self.lock:
                 self.problem = self.problem or problem
 
@@ -142,7 +142,7 @@ class Threads:
                 started += 1
             for helper in helpers:
                 helper.join()
-        except BaseException as problem:
+        except BaseException as problem:  # noqa: BLE001 - Ctrl-C, raised as soon as all have come to rest
             # What has not begun does not begin, the rest ends at its next prediction.
             share.problem, self.stopped = problem, True
             self.works(started - len(helpers))

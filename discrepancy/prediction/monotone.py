@@ -14,7 +14,7 @@ def monotone_cubic(x: Floats, y: Floats, at: Floats) -> Floats:
 
 
 @kernel
-def end_slope(near, far, rise_near, rise_far):
+def end_slope(near: float, far: float, rise_near: float, rise_far: float) -> float:
     """Slope at an end of three points, of widths and rises the nearer first, that overshoots nowhere."""
     slope = ((2.0 * near + far) * rise_near - near * rise_far) / (near + far)
     if slope * rise_near <= 0.0:
@@ -25,7 +25,7 @@ def end_slope(near, far, rise_near, rise_far):
 
 
 @kernel
-def interpolate(x, y, slopes, at, found):
+def interpolate(x: Floats, y: Floats, slopes: Floats, at: Floats, found: Floats) -> None:
     """``monotone_cubic`` into ``found`` (m,), with room for ``slopes`` (n,)."""
     n = x.shape[0]
     if n == 2:
