@@ -99,8 +99,7 @@ class Selection:
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
             if s not in chosen:
                 chosen.append(s)
-        fits = sorted([*self.race("fitting alone", chosen), *self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())],
-                      key=penalised)  # fmt: skip
+        fits = sorted(self.race("fitting alone", chosen), key=penalised)
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
@@ -113,8 +112,11 @@ class Selection:
         fits = self.widely(fits)
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
-        if fits[0].candidates[0].name not in rates and leaves_some(first[0].fit, first[0].gain):
-            fits = [fits[0], *self.widely(self.along_valleys(fits[1:], rates))]
+        if self.judgement.leftover(first[0])[0]:
+            # What is dear to look for.
+            more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())
+            rest = sorted([*more, *fits[1:]], key=penalised)
+            fits = [fits[0], *self.widely(rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates))]
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)

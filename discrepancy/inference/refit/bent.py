@@ -12,7 +12,6 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.confusable import FORM
 from discrepancy.inference.refit.effect_fit import jointly, total_cost
 from discrepancy.inference.screening.screen import TYPICAL, Columns, limits
 from discrepancy.problem import Candidate, Placing
@@ -31,10 +30,10 @@ ACROSS = (-4.0, -3.0, -2.4, -2.0, -1.6, -1.2, -0.8, -0.4, 0.4, 0.8, 1.2, 1.6, 2.
 MOST_WEIGHED, MOST_PLACES = 12, 3
 
 
-def leaves_some(fit: Fit, gain: float = 0.0) -> bool:
-    """Whether a fit leaves what neither noise does nor, of what it gains, a law of nearly the right form."""
+def leaves_some(fit: Fit) -> bool:
+    """Whether a fit leaves what noise does not."""
     count = len(fit.residual)
-    return bool(fit.chi2 - count > max(NO_NOISE * np.sqrt(2.0 * count), FORM * gain))
+    return bool(fit.chi2 - count > NO_NOISE * np.sqrt(2.0 * count))
 
 
 def explains_some(space: Workspace, fit: Fit) -> bool:
