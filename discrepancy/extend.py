@@ -13,7 +13,7 @@ from typing import Any, cast
 from discrepancy.alike.already_there import AlreadyThere, numbers_of
 from discrepancy.alike.opposite_sign import others_of
 from discrepancy.alike.ring_directions import either_texts
-from discrepancy.alike.untold import parts_untold
+from discrepancy.alike.untold import forms_untold, other_forms, parts_untold
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, figures_of, runs_of
 from discrepancy.doubts.locked_zeros import zeros_told
@@ -96,7 +96,9 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     space = diagnostician.space
     every = list(range(len(space.records)))
     before = by_signal(runs_of(space, space.predictions(space.base.values, every)))
-    chosen = [best_of(variants, diagnostician) for variants in asked]
+    tried = [best_of(variants, diagnostician) for variants in asked]
+    chosen, added = [best for best, _ in tried], {best.name for best, _ in tried}
+    forms = {best.name: dict.fromkeys(near, "") | (other_forms(answer.effects, best.name, added) if answer else {}) for best, near in tried}
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
@@ -128,7 +130,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "unseen": judged is not None and not judged.seen,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
         "positions": zeros,
-        "untold": [*(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
+        "other_forms": {name: list(others) for name, others in forms.items() if others},
+        "untold": [*forms_untold(forms), *(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
                    *either_told(fit, others, file)],
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
@@ -193,17 +196,18 @@ def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> 
     return variants
 
 
-def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidate:
-    """The variant that fits best."""
+def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> tuple[Candidate, list[str]]:
+    """The variant that fits best, and the names of those that fit as well."""
     if len(variants) == 1:
-        return variants[0]
+        return variants[0], []
     misfits = []
     with task("trying each form", total=len(variants)) as trying:
         for candidate in variants:
             trying.what = f"trying {candidate.name}"
             misfits.append(diagnostician.fit([candidate.name]).fit.chi2)
             trying.advance()
-    return variants[misfits.index(min(misfits))]
+    ordered = sorted(zip(misfits, variants), key=lambda pair: pair[0])
+    return ordered[0][1], [c.name for misfit, c in ordered[1:] if misfit - ordered[0][0] <= diagnostician.settings.margin]
 
 
 def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:
