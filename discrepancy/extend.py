@@ -5,7 +5,7 @@ runs that the parameters were fitted to is never called a success.
 """
 
 import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
@@ -119,7 +119,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task("judging it on unused runs"):
         judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
         fitted = judgement(diagnostician, fit, diagnostician.space.training)
-        outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit, judged)
+        outcome, reason = verdict_of(judged, lambda: goes_with(diagnostician, fit)) if judged is None or judged.seen else unseen(diagnostician, fit, judged)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     figures = list(zip(figures_of(diagnostician, model), figures_of(diagnostician, model, fit.fit.values), strict=True))
     zeros = zeros_told(model, fit.fit)
@@ -215,7 +215,17 @@ def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] |
     return HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders, indices=indices).judge(fit)
 
 
-def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
+def goes_with(diagnostician: Diagnostician, fit: Refit) -> str:
+    """The condition by which effects should be larger here and smaller there, or that what a fit leaves of the fitted runs goes with, most; empty for none."""
+    _, _, left, _ = diagnostician.judgement.leftover(fit)
+    conditions = {name for record in diagnostician.space.records for name in record.factors}
+    uneven = {name: test["statistic"] - test["width"] for name, test in left["dependence"].items()
+              if name in conditions and test["p"] < diagnostician.settings.leftover_level}  # fmt: skip
+    return max(uneven, key=lambda name: uneven[name]) if uneven else next((f["dependence"] for f in left["findings"] if f["dependence"] in conditions), "")
+
+
+def verdict_of(judged: HeldOut | None, condition: Callable[[], str] = str) -> tuple[str, str]:
+    """``condition``: that which what is left goes with, for who asks."""
     if judged is None:
         return NOT_PROVEN, (
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
@@ -232,7 +242,9 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
         )
     if judged.after < BETTER * judged.before:
         over = judged.after > WITHIN_NOISE and judged.p_after < BY_CHANCE
-        left = f"; {judged.after:.1f} times what noise leaves in the patterns is still left to explain" if over else ""
+        name = condition() if over else ""
+        with_what = f", and it goes with {name}" if name else ""
+        left = f"; not enough: {judged.after:.1f} times what noise leaves in the patterns is still left to explain{with_what}" if over else ""
         return HELPED, f"{samples}{patterns}{little}{left}"
     return DID_NOT_HELP, (
         f"{samples}{patterns}{little}: on unused runs it did not fall, although on fitted runs it did; the effect fits noise or stands for another one;"

@@ -297,3 +297,23 @@ def test_each_form_that_fits_as_well_has_its_line(monkeypatch, capsys, tmp_path)
     assert load_model(target).steps[0]["other_forms"] == {FORMS[0]: FORMS[1:]}
     assert main(["extend", "RV20E-121", "my bench", "--effect", "support_compliance", "--output", target, "--overwrite", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["step"]["other_forms"] == {FORMS[0]: FORMS[1:]}
+
+
+@pytest.mark.parametrize(("after", "name", "said"), [(14.3, "temperature", "not enough: 14.3 times what noise leaves in the patterns is still left to explain, and it goes with temperature"),
+                                                     (14.3, "", "still left to explain"), (1.0, "temperature", "noise leaves there)")])  # fmt: skip
+def test_what_helped_and_leaves_much_says_what_it_goes_with(after, name, said):
+    """Its error was 14 times the noise, and "helped" was all that stood there."""
+    judged = HeldOut(17.0, after, 1e-9, {}, "held-out runs")
+    outcome, reason = verdict_of(judged, lambda: name)
+    assert outcome == HELPED and reason.endswith(said)
+
+
+def test_of_conditions_that_go_together_the_one_that_explains_most_is_said():
+    left = {"findings": [{"dependence": "everywhere"}, {"dependence": "speed"}], "dependence": {
+        "load": {"statistic": 40.0, "width": 2, "p": 1e-9}, "temperature": {"statistic": 90.0, "width": 2, "p": 1e-20}, "axis": {"statistic": 99.0, "width": 2, "p": 0.0}}}  # fmt: skip
+    records = [SimpleNamespace(factors={"load": 1.0, "temperature": 2.0, "speed": 3.0})]
+    doctor = SimpleNamespace(judgement=SimpleNamespace(leftover=lambda fit: (True, 1.0, left, 2.0)), space=SimpleNamespace(records=records),
+                             settings=SimpleNamespace(leftover_level=0.004))  # fmt: skip
+    assert extension.goes_with(doctor, None) == "temperature"
+    left["dependence"] = {}
+    assert extension.goes_with(doctor, None) == "speed"
