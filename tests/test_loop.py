@@ -208,6 +208,8 @@ def test_repetition_that_stands_out_is_shown_by_compare(file):
     comparison = compare(file, replace(campaign, records=(*campaign.records, *more)))
     (found,) = comparison.outlying
     assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] == 0.0
+    # It is looked for once.
+    assert comparison.outlying is comparison.model.outlying
     said = next(text for text in comparison.warnings if "run lm5" in text)
     assert "left out of fit, errors and key figures (pages draw it in grey), for its repetitions agree without it" in said
     drawn = page_of_comparison(comparison)

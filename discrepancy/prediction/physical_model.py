@@ -70,7 +70,7 @@ class Asked:
 class PhysicalModel(PlacedBeside):
     """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
-    ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
+    ``unpredicted`` lists quantities that it has no prediction for; their records are left out.  ``outlying`` are all repetitions that stand out.
     """
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
@@ -79,7 +79,8 @@ class PhysicalModel(PlacedBeside):
         self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
         shown = [r for r in campaign.records if r.quantity in PREDICTED]
         # Told by all that was measured, as a check of the campaign does.
-        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), outlying(shown))
+        self.outlying = outlying(campaign.records)
+        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), self.outlying)
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         self.bench = bench_of(model, present, fmus)
