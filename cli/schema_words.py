@@ -40,6 +40,7 @@ MODEL = {
     "StepEntry.training_before": "misfit in the patterns of fitted runs, before (1: what noise leaves there)", "StepEntry.training_after": "and after",
     "StepEntry.held_out_before": "misfit in the patterns of unused runs, before (1: what noise leaves there)", "StepEntry.held_out_after": "and after",
     "StepEntry.unseen": "whether unused runs are changed too little to judge it: conditions left out in turn decide",
+    "StepEntry.other_forms": "by what was added what fits as well in its place",
     "StepEntry.nuisances": "what was calibrated on the way", "StepEntry.signals": "the same by signal",
     "StepEntry.untold": "which parts, directions or signs of it look alike, and what tells them apart",
     "StepEntry.positions": "output angle of the model [rad] at which positions of the input that a campaign states are 0, by mounting",

@@ -39,7 +39,7 @@ from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.unstated_places import is_from_there
-from discrepancy.repetitions import Outlying, outlying
+from discrepancy.repetitions import Outlying
 from discrepancy.scales import Scale, of_calibrated, shown
 from discrepancy.words import as_told
 from discrepancy.words.standing_notes import floating_of, standing_notes
@@ -112,7 +112,7 @@ def compare(file: ModelFile, campaign: Campaign, settings: Settings = Settings()
     doubts += zero_texts(model, space, space.base)
     warnings = parts_untold_before(file) + beforehand(model, figures, runs) + doubts + warnings_of(model, list(space.noise.warnings))
     calibrated = {name: value for name, value in space.base.values.items() if not is_from_there(name)}
-    return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, outlying(campaign.records), figures, scales)
+    return Comparison(model, diagnostician, runs, by_signal(runs), calibrated, warnings, predictions, model.outlying, figures, scales)
 
 
 def calibrated_texts(model: PhysicalModel, values: Mapping[str, float], base: Fit | None = None) -> list[str]:
@@ -224,7 +224,7 @@ def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure], runs: Sequenc
     other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
     angles = [found.sentence for found in (*angle_doubts(model.campaign), *order_of_rows(Design(model.campaign)))]
     samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
-    repetitions = [outlier_text(found, model, runs) for found in outlying(model.campaign.records)]
+    repetitions = [outlier_text(found, model, runs) for found in model.outlying]
     return [*other, *angles, *samples, *repetitions, *too_soft(figures, model.bench), *incomplete(model.campaign)]
 
 
@@ -238,6 +238,6 @@ def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
     warnings += standing_notes(model.campaign)
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
-    if not any(r.held_out and not r.left_out for r in model.records):
+    if not any(r.unused for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")
     return warnings

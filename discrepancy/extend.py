@@ -5,7 +5,7 @@ runs that the parameters were fitted to is never called a success.
 """
 
 import difflib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
@@ -13,7 +13,7 @@ from typing import Any, cast
 from discrepancy.alike.already_there import AlreadyThere, numbers_of
 from discrepancy.alike.opposite_sign import others_of
 from discrepancy.alike.ring_directions import either_texts
-from discrepancy.alike.untold import parts_untold
+from discrepancy.alike.untold import forms_untold, other_forms, parts_untold
 from discrepancy.campaign.model import Campaign
 from discrepancy.compare import by_signal, figures_of, runs_of
 from discrepancy.doubts.locked_zeros import zeros_told
@@ -96,7 +96,9 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     space = diagnostician.space
     every = list(range(len(space.records)))
     before = by_signal(runs_of(space, space.predictions(space.base.values, every)))
-    chosen = [best_of(variants, diagnostician) for variants in asked]
+    tried = [best_of(variants, diagnostician) for variants in asked]
+    chosen, added = [best for best, _ in tried], {best.name for best, _ in tried}
+    forms = {best.name: dict.fromkeys(near, "") | (other_forms(answer.effects, best.name, added) if answer else {}) for best, near in tried}
     with task(f"fitting {', '.join(c.name for c in chosen)}"):
         fit = diagnostician.final([c.name for c in chosen])
     effects = {k: dict(v) for k, v in file.effects.items()}
@@ -117,7 +119,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
     with task("judging it on unused runs"):
         judged = judgement(diagnostician, fit, None) if diagnostician.space.held_out else None
         fitted = judgement(diagnostician, fit, diagnostician.space.training)
-        outcome, reason = verdict_of(judged) if judged is None or judged.seen else unseen(diagnostician, fit, judged)
+        outcome, reason = verdict_of(judged, lambda: goes_with(diagnostician, fit)) if judged is None or judged.seen else unseen(diagnostician, fit, judged)
     after = runs_of(diagnostician.space, diagnostician.space.predictions(fit.fit.values, every))
     figures = list(zip(figures_of(diagnostician, model), figures_of(diagnostician, model, fit.fit.values), strict=True))
     zeros = zeros_told(model, fit.fit)
@@ -128,7 +130,8 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
         "unseen": judged is not None and not judged.seen,
         "nuisances": {p.name: float(fit.fit.values[p.name]) for p in diagnostician.space.base.parameters} | zeros,
         "positions": zeros,
-        "untold": [*(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
+        "other_forms": {name: list(others) for name, others in forms.items() if others},
+        "untold": [*forms_untold(forms), *(parts_untold([e for e in answer.effects if {c.name for c in chosen} & set(e["candidates"])]) if answer else []),
                    *either_told(fit, others, file)],
         "signals": [
             {"signal": a["signal"], "held_out": a["held_out"], "unit": a["unit"], "before": b["error"], "after": a["error"],
@@ -193,17 +196,18 @@ def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> 
     return variants
 
 
-def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> Candidate:
-    """The variant that fits best."""
+def best_of(variants: list[Candidate], diagnostician: Diagnostician) -> tuple[Candidate, list[str]]:
+    """The variant that fits best, and the names of those that fit as well."""
     if len(variants) == 1:
-        return variants[0]
+        return variants[0], []
     misfits = []
     with task("trying each form", total=len(variants)) as trying:
         for candidate in variants:
             trying.what = f"trying {candidate.name}"
             misfits.append(diagnostician.fit([candidate.name]).fit.chi2)
             trying.advance()
-    return variants[misfits.index(min(misfits))]
+    ordered = sorted(zip(misfits, variants), key=lambda pair: pair[0])
+    return ordered[0][1], [c.name for misfit, c in ordered[1:] if misfit - ordered[0][0] <= diagnostician.settings.margin]
 
 
 def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] | None) -> HeldOut | None:
@@ -211,7 +215,17 @@ def judgement(diagnostician: Diagnostician, fit: Refit, indices: Sequence[int] |
     return HeldOutJudge(diagnostician.space, diagnostician.localisation, [fit], diagnostician.orders, indices=indices).judge(fit)
 
 
-def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
+def goes_with(diagnostician: Diagnostician, fit: Refit) -> str:
+    """The condition by which effects should be larger here and smaller there, or that what a fit leaves of the fitted runs goes with, most; empty for none."""
+    _, _, left, _ = diagnostician.judgement.leftover(fit)
+    conditions = {name for record in diagnostician.space.records for name in record.factors}
+    uneven = {name: test["statistic"] - test["width"] for name, test in left["dependence"].items()
+              if name in conditions and test["p"] < diagnostician.settings.leftover_level}  # fmt: skip
+    return max(uneven, key=lambda name: uneven[name]) if uneven else next((f["dependence"] for f in left["findings"] if f["dependence"] in conditions), "")
+
+
+def verdict_of(judged: HeldOut | None, condition: Callable[[], str] = str) -> tuple[str, str]:
+    """``condition``: that which what is left goes with, for who asks."""
     if judged is None:
         return NOT_PROVEN, (
             "no run was held out: the error on the runs that were fitted fell, which any effect can achieve;"
@@ -228,7 +242,9 @@ def verdict_of(judged: HeldOut | None) -> tuple[str, str]:
         )
     if judged.after < BETTER * judged.before:
         over = judged.after > WITHIN_NOISE and judged.p_after < BY_CHANCE
-        left = f"; {judged.after:.1f} times what noise leaves in the patterns is still left to explain" if over else ""
+        name = condition() if over else ""
+        with_what = f", and it goes with {name}" if name else ""
+        left = f"; not enough: {judged.after:.1f} times what noise leaves in the patterns is still left to explain{with_what}" if over else ""
         return HELPED, f"{samples}{patterns}{little}{left}"
     return DID_NOT_HELP, (
         f"{samples}{patterns}{little}: on unused runs it did not fall, although on fitted runs it did; the effect fits noise or stands for another one;"

@@ -89,6 +89,7 @@ class StepEntry(Strict):
     nuisances: dict[str, float] = {}
     positions: dict[str, float] = {}
     signals: list[SignalEntry] = []
+    other_forms: dict[str, list[str]] = {}
     untold: list[str] = []
     kept: bool = True
 

@@ -98,6 +98,11 @@ class Record:
         return not self.held_out and not self.left_out
 
     @property
+    def unused(self) -> bool:
+        """Whether it is of the runs that were held out to judge by."""
+        return self.held_out and not self.left_out
+
+    @property
     def counted(self) -> Mask:
         """(n,) Samples that do not stand far off."""
         counted = np.ones(np.size(self.values), bool)

@@ -6,7 +6,8 @@ deviation is itself hardly known: what is far is taken from the distribution tha
 
 What stands out against most of its repetitions is left out of all that is fitted, judged or averaged.  A weight that falls as one over the distance
 would not do: where the others agree closely, a hundredth of a file that is 700 times their noise off still outweighs them.  Of two that differ nobody
-knows which is wrong: both count, and it is said.
+knows which is wrong: both count, and it is said.  A single number has nothing but its repetitions to be judged by: it is left out beyond what chance makes
+of such scatter once in a hundred groups, else it counts, and is said to stand out.
 """
 
 from collections import defaultdict
@@ -14,6 +15,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import stdtr
 
 from discrepancy.problem import Record
 from discrepancy.rounding import jumps_of
@@ -32,6 +34,8 @@ EQUAL_SHAPE = 1e-3
 TWICE = 2.0
 # Off the nearest other by so many times, where the others agree within the factor before (assumed): also among three.
 THREEFOLD = 3.0
+# Of all repetitions of a condition, and all numbers of a run, together: how often one may be left out by chance.
+LEVEL = 0.01
 # Below so many samples a run is a list of numbers.
 SERIES = 8
 # Numbers below which runs may agree to the last digit by chance.
@@ -54,7 +58,7 @@ class Outlying:
 
     ``what`` names the size, ``size`` is the run's, ``low`` to ``high`` those of the others, all in ``unit`` (SI); ``times`` is its distance
     to the median in usual deviations, of two to each other.  ``left_out``: the others are most and agree; else it counts like them, for which of
-    them is wrong cannot be told.  ``other``: of two the other run.
+    them is wrong cannot be told.  ``other``: of two the other run.  ``by_chance``: it is a number, and such scatter makes it now and then.
     """
 
     run: str
@@ -71,6 +75,7 @@ class Outlying:
     times: float
     left_out: bool = True
     other: str = ""
+    by_chance: bool = False
 
     @property
     def weight(self) -> float:
@@ -93,7 +98,7 @@ def outlying(records: Sequence[Record]) -> list[Outlying]:
             own = standing_out(members, usual)
             # Where as many stand out as do not, it cannot be told who is right.
             few = not pairs and 2 * len(own) < len(members)
-            found += [one if few else replace(one, left_out=False) for one in own]
+            found += [replace(one, left_out=few and not one.by_chance) for one in own]
     # Something has to be left to fit.
     gone = {one.run for one in found if one.left_out}
     if all(r.held_out or r.name in gone for r in records):
@@ -150,6 +155,7 @@ def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tupl
                 found[r.name] = Outlying(
                     r.name, r.quantity, tuple(sorted(r.tags.items())), r.condition, r.replicate, len(members), what, float(own[k]),
                     float(rest.min()), float(rest.max()), r.unit, float(times), other=members[1 - k].name if two else "",
+                    by_chance=not two and what not in (SPAN, MEAN, DEPARTURE) and not beyond_chance(own, k, *common, LEVEL / len(sizes)),
                 )  # fmt: skip
         if two and found:
             break
@@ -270,6 +276,24 @@ def distances(sizes: Floats, common: float, count: int, least: float = 0.0) -> F
         apart = np.array([far_from_all(sizes, k) for k in range(len(sizes))])
         stands_out |= apart & (times > rarely) if known > len(sizes) else apart
     return np.where(stands_out & (away > least), times, 0.0)
+
+
+def beyond_chance(sizes: Floats, k: int, common: float, count: int, level: float = LEVEL) -> bool:
+    """Whether one of several numbers is further from the others than their scatter makes it: by Student's law, of the numbers and, of positive ones, of their
+    logarithms; or than what ``common`` scatter of other conditions makes."""
+    middle = float(np.median(sizes))
+    pooled = max(common, EQUAL) * abs(middle)
+    if count > len(sizes) and 1.4826 * float(np.median(np.abs(sizes - middle))) <= USUAL * pooled:
+        return bool(abs(sizes[k] - middle) > float(np.interp(float(count), COUNTS, ONCE_IN_200)) * pooled)
+    return all(chance_of(scale, k) < level for scale in ((sizes, np.log(sizes)) if np.all(sizes > 0.0) else (sizes,)))
+
+
+def chance_of(sizes: Floats, k: int) -> float:
+    """How often any of so many normal numbers is as far from the mean of the others as this one, by what these differ by."""
+    rest = np.delete(sizes, k)
+    spread = float(np.std(rest, ddof=1)) * np.sqrt(1.0 + 1.0 / len(rest))
+    times = abs(float(sizes[k] - rest.mean())) / max(spread, 1e-300)
+    return float(min(1.0, 2.0 * len(sizes) * stdtr(len(rest) - 1, -times)))
 
 
 def departures(sizes: Floats, span: float, common: float, count: int) -> Floats:

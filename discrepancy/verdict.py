@@ -26,6 +26,7 @@ from discrepancy.doubts.whose_angle import gained_as_input
 from discrepancy.figures.beside_none import beside_none
 from discrepancy.figures.figure_chance import chance_text
 from discrepancy.figures.key_figures import KeyFigure, calibrated_first
+from discrepancy.figures.stiffest import too_rigid
 from discrepancy.inference.diagnose import Diagnostician, Interrupted
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
@@ -41,6 +42,7 @@ from discrepancy.words.would_show import WouldShow, would_show
 from fmu_src.progress import task
 from fmu_src.table import Table
 from fmu_src.threads import sharing_no_matrices
+from reducers.library import available
 
 
 @dataclass(frozen=True)
@@ -204,7 +206,7 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     # Where nothing is missing, nothing was looked for.
     places = [text] if verdict != NONE and (text := unsearched_text(model)) else []
     doubts += unstated_texts(model, found)
-    doubts += zero_texts(model, doctor.space, fit)
+    doubts += zero_texts(model, doctor.space, fit) + (too_rigid(figures, model.bench, available()) if verdict in (UNKNOWN, INCOMPLETE) else [])
     effects = seen_from_crank(with_others(effects, found), fit.values, model.file)
     effects = [effect | {"other_forms": forms_seen(effect["other_forms"], found, model.file)} for effect in effects]
     untold = origins_untold(effects, model.file, model.campaign) + parts_untold_before(model.file)

@@ -12,6 +12,7 @@ from cli.commands import comparison as commands
 from cli.main import main, parser
 from discrepancy import extend as extension
 from discrepancy.alike.already_there import AlreadyThere
+from discrepancy.alike.untold import forms_untold, other_forms
 from discrepancy.extend import DID_NOT_HELP, HELPED, Extension, UnknownEffect, variants_of, verdict_of
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, UNKNOWN
@@ -266,3 +267,53 @@ def test_a_diagnosis_that_names_nothing_to_add_is_no_bad_input(monkeypatch, caps
     again = capsys.readouterr()
     told = json.loads(again.out)
     assert told["verdict"] == NONE and again.err.strip() == f"rvwear extend: {told['nothing_added']}" and f"says {NONE!r}" in told["nothing_added"]
+
+
+FORMS = ["support_compliance.carrier", "support_compliance.housing", "support_compliance.first_stage"]
+
+
+def test_which_other_forms_fit_as_well_is_said_of_what_is_added():
+    """The first of several springs was added without a word."""
+    others = [{"candidates": [FORMS[1]], "reason": "fits as well as " + FORMS[0]}, {"candidates": [FORMS[2]], "reason": "fits worse by 0.3 in chi-square"}]
+    named = {"name": "support_compliance", "candidates": FORMS, "forms": {}, "other_forms": others}
+    (text,) = forms_untold({FORMS[0]: other_forms([named], FORMS[0], {FORMS[0]})})
+    assert f"{FORMS[0]} was added, and {FORMS[1]}, or {FORMS[2]} (fits worse by 0.3 in chi-square) fits as well" in text
+    assert f"rvwear extend with --effect {FORMS[1]} in place of {FORMS[0]} adds the first of these" in text
+    # Of what is said in comparison with the first nothing is said beside another; of forms that are all needed none is another's.
+    assert other_forms([named], FORMS[2], {FORMS[2]}) == {FORMS[0]: "", FORMS[1]: ""}
+    assert forms_untold({FORMS[0]: other_forms([named | {"forms": {"carrier": ["c"]}}], FORMS[0], {FORMS[0]})}) == []
+
+
+def test_each_form_that_fits_as_well_has_its_line(monkeypatch, capsys, tmp_path):
+    step = {"nuisances": {}, "effects": FORMS[:1], "reason": "so", "signals": [], "kept": True, "verdict": HELPED, "campaign": "c", "training_before": 2.0,
+            "training_after": 1.0, "other_forms": {FORMS[0]: FORMS[1:]}, "untold": ["which it is"]}  # fmt: skip
+    monkeypatch.setattr(commands, "inputs", lambda given: (load_model("RV20E-121"), None))
+    monkeypatch.setattr("discrepancy.remembered.extended", lambda file, *given, **more: Extension(replace(file, steps=(step,)), step, HELPED))
+    target = str(tmp_path / "better.toml")
+    assert main(["extend", "RV20E-121", "my bench", "--effect", "support_compliance", "--output", target]) == 0
+    found = [parser().parse_args(shlex.split(line)[1:]) for line in capsys.readouterr().out.splitlines() if line.startswith("  rvwear extend")]
+    assert [(line.effect, line.output) for line in found] == [([form], f"{form.replace('.', '_')}.toml") for form in FORMS[1:]]
+    # They stand in the file, too, and in JSON.
+    assert load_model(target).steps[0]["other_forms"] == {FORMS[0]: FORMS[1:]}
+    assert main(["extend", "RV20E-121", "my bench", "--effect", "support_compliance", "--output", target, "--overwrite", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["step"]["other_forms"] == {FORMS[0]: FORMS[1:]}
+
+
+@pytest.mark.parametrize(("after", "name", "said"), [(14.3, "temperature", "not enough: 14.3 times what noise leaves in the patterns is still left to explain, and it goes with temperature"),
+                                                     (14.3, "", "still left to explain"), (1.0, "temperature", "noise leaves there)")])  # fmt: skip
+def test_what_helped_and_leaves_much_says_what_it_goes_with(after, name, said):
+    """Its error was 14 times the noise, and "helped" was all that stood there."""
+    judged = HeldOut(17.0, after, 1e-9, {}, "held-out runs")
+    outcome, reason = verdict_of(judged, lambda: name)
+    assert outcome == HELPED and reason.endswith(said)
+
+
+def test_of_conditions_that_go_together_the_one_that_explains_most_is_said():
+    left = {"findings": [{"dependence": "everywhere"}, {"dependence": "speed"}], "dependence": {
+        "load": {"statistic": 40.0, "width": 2, "p": 1e-9}, "temperature": {"statistic": 90.0, "width": 2, "p": 1e-20}, "axis": {"statistic": 99.0, "width": 2, "p": 0.0}}}  # fmt: skip
+    records = [SimpleNamespace(factors={"load": 1.0, "temperature": 2.0, "speed": 3.0})]
+    doctor = SimpleNamespace(judgement=SimpleNamespace(leftover=lambda fit: (True, 1.0, left, 2.0)), space=SimpleNamespace(records=records),
+                             settings=SimpleNamespace(leftover_level=0.004))  # fmt: skip
+    assert extension.goes_with(doctor, None) == "temperature"
+    left["dependence"] = {}
+    assert extension.goes_with(doctor, None) == "speed"

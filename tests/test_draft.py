@@ -17,6 +17,7 @@ from discrepancy.draft.places import Drive, NoPlace, place_of
 from discrepancy.draft.write import text_of
 from discrepancy.inference.law.closed_forms import Form, closed_forms
 from discrepancy.inference.law.recover import Recovered
+from discrepancy.inference.law.waves import Growth
 from fmu_src.effect_check import check_any_file
 from fmu_src.faults import InputFault, RunFault
 
@@ -32,7 +33,8 @@ CONSTANTS = {
 TOLD = {"speed": (1.0 / RPM, 0.0, "rpm"), "temperature": (1.0, -273.15, "degC"), "hours": (1.0 / 3600.0, 0.0, "h"), "angle": (180.0 / math.pi, 0.0, "deg")}
 
 
-def law_of(signal="input_torque", leading="speed", form="power", constants=None, factor=None, ends=(200.0, 2000.0), y_told=(1.0, ""), sure=0.1):
+def law_of(signal="input_torque", leading="speed", form="power", constants=None, factor=None, ends=(200.0, 2000.0), y_told=(1.0, ""), sure=0.1,
+           growth=None):
     """A law over ``leading``, whose form holds over ``ends`` in the unit it is told in; constants are known within a share ``sure``."""
     p = constants or CONSTANTS[form]
     intervals = {k: (v - sure * abs(v), v + sure * abs(v)) for k, v in p.items()}
@@ -40,7 +42,7 @@ def law_of(signal="input_torque", leading="speed", form="power", constants=None,
     x = [(v - offset) / scale for v in np.linspace(*ends, 8)]
     told = Form(form, "", p, intervals, 1.0, 0.9)
     return Recovered(signal, factor == "prediction", [], leading, factor, {"x": x, "y": x, "deviation": x}, [told], None, None, "the law",
-                     (scale, offset, unit), y_told)  # fmt: skip
+                     (scale, offset, unit), y_told, growth)  # fmt: skip
 
 
 def file_of(folder, law, name="mystery", zero_known=False):
@@ -158,7 +160,8 @@ def over(signal, leading, axes, factors=LOADED, factor=None, form="linear", ends
     """(law, what a bench is asked)."""
     quantity, _, tag = signal.partition("[")
     tags = dict([tag[:-1].split("=")]) if tag else {}
-    return law_of(signal, leading, form, constants, factor, ends), (quantity, tags, axes, factors)
+    growth = constants.pop("growth", None)
+    return law_of(signal, leading, form, constants, factor, ends, growth=growth), (quantity, tags, axes, factors)
 
 
 WARM = {"form": "linear", "ends": (20.0, 60.0)}
@@ -176,6 +179,8 @@ CASES = {
                       a=0.0, b=2e-6, c=1e-6, k=0.096),
     "wave_side": over("transmission_error", "angle", {"angle": ANGLES}, LOADED | {"direction": -1.0}, "load and direction", form="periodic",
                       ends=(0.0, 360.0), a=0.0, b=2e-8, c=1e-8, k=0.096),
+    "wave_warm": over("transmission_error", "angle", {"angle": ANGLES}, form="periodic", ends=(0.0, 360.0), a=0.0, b=2e-6, c=1e-6, k=0.096,
+                      growth=Growth("temperature", 273.15, 65.0, 2.0)),
     "lost": over("lost_motion", "temperature", {"load": [150.0]}, **WARM, a=2e-5, b=1e-6),
     "worn_fast": over("wear_depth[surface=flank]", "speed", {"hours": [3.6e5, 7.2e5]}, factor="prediction", a=0.1, b=1e-4),
     "worn_warm": over("wear_depth[surface=inner_race]", "temperature", {"hours": [3.6e5, 7.2e5]}, factor="prediction", **WARM, a=0.1, b=0.01),
@@ -192,7 +197,7 @@ def wanted(law, asked, base):
     form = law.forms[0]
     y = closed_forms(np.array([v * factor + offset for v in law.points["x"]]))[form.name][2](x, *form.parameters.values())
     way = {"prediction": base, "load and direction": places["load"] * places["direction"], None: 1.0}[law.factor]
-    return way * y
+    return way * y * (law.growth.of(factors) if law.growth else 1.0)
 
 
 @pytest.fixture(scope="module")
@@ -306,3 +311,15 @@ def test_effects_lie_in_one_folder(tmp_path, monkeypatch, capsys):
     require_folder(tmp_path / "mine")
     assert main(["extend", "RV20E-121", str(tmp_path / "none"), "--draft", str(tmp_path), "--effect", "drag"]) == 2
     capsys.readouterr()
+
+
+def test_a_wave_whose_size_goes_with_a_condition(tmp_path):
+    def drafted(growth):
+        return file_of(tmp_path, law_of("transmission_error", "angle", "periodic", factor="direction", growth=growth))
+
+    draft = drafted(Growth("temperature", 273.15, 65.0, 2.0, 0.1))
+    write(draft)
+    assert check_any_file(draft.file) == [] and draft.equation.startswith("turning = ((T - 273.15)/65)^q side (b cos[")
+    assert [(s.letter, s.value, s.low, s.high) for s in draft.expression.shapes[1:]] == [("q", 2.0, 0.05, 8.0)]
+    with pytest.raises(NoPlace, match="goes with the hours, which the plant does not know; it knows load, speed, temperature"):
+        drafted(Growth("hours", 0.0, 3.6e6, 1.0))

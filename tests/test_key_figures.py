@@ -8,13 +8,14 @@ import pytest
 
 from discrepancy.figures.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
 from discrepancy.figures.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
-from discrepancy.figures.stiffest import SUPPORTS, times_with_rigid_supports, too_soft
+from discrepancy.figures.stiffest import SUPPORTS, times_with_rigid_supports, too_rigid, too_soft
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.prediction import bench as virtual
 from discrepancy.prediction.orders import ROLLERS, named_orders
 from discrepancy.problem import Candidate, Parameter, Record
 from discrepancy.repetitions import outlying, with_left_out
+from reducers.library import available
 from reducers.reducer import load_reducer
 from rv_plant import supports
 from rvwear import hysteresis
@@ -174,6 +175,18 @@ def test_a_base_that_is_softer_than_what_was_measured_is_said(name, times, said)
     [told] = too_soft([figure(STIFFNESS, times, 1.0, 0.1)], known)
     assert f"{times:.2g} times as stiff" in told and said in told
     assert not too_soft([figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)], known)
+
+
+@pytest.mark.parametrize(("name", "said"), [
+    ("RV20E-121-rigid", "take RV20E-121 of the library, and diagnose again"), ("cycloidal-actuator", "take a reducer file with crank.support_compliance"),
+    ("RV20E-121", ""),
+])  # fmt: skip
+def test_a_base_on_rigid_supports_is_said_where_what_was_measured_is_softer_by_a_factor(name, said):
+    """A ring with three lobes of 4 um was swallowed by a seat with memory that stood for all springs and friction; with RV20E-121 it is named as it is."""
+    known = virtual.Bench(load_reducer(name), {})
+    told = too_rigid([figure(STIFFNESS, 1.0, 9.0, 0.01)], known, available())
+    assert [text for text in told if said in text and "9 times as soft" in text] == told and len(told) == bool(said)
+    assert not too_rigid([figure(STIFFNESS, 1.0, 1.3, 0.01), figure(STIFFNESS, 1.0, 9.0, 3.0), figure(WIDTH, 1.0, 9.0, 0.01)], known, ())
 
 
 def test_rigid_supports_make_a_reducer_as_stiff_as_a_file_without_their_compliance():

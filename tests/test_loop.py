@@ -208,10 +208,16 @@ def test_repetition_that_stands_out_is_shown_by_compare(file):
     comparison = compare(file, replace(campaign, records=(*campaign.records, *more)))
     (found,) = comparison.outlying
     assert found.run == "lm5" and comparison.as_json()["outlying"][0]["weight"] == 0.0
+    # It is looked for once.
+    assert comparison.outlying is comparison.model.outlying
     said = next(text for text in comparison.warnings if "run lm5" in text)
-    assert "left out of fit, errors, key figures and charts, for its repetitions agree without it" in said
+    assert "left out of fit, errors and key figures (pages draw it in grey), for its repetitions agree without it" in said
     drawn = page_of_comparison(comparison)
     assert "left out: lm5" in drawn.conditions and f"of {len(comparison.runs) - 1} runs err" in drawn.finding
+    # It was not drawn at all.
+    figure = next(f for s in drawn.sections for f in s.figures if f.name.startswith("run_number_lost_motion"))
+    assert [(t["name"], t["text"]) for t in figure.data if t["name"] == "left out"] == [("left out", ["lm5"])] and "Grey rings" in figure.caption
+    assert all(choice.traces[-1]["text"] == ["lm5"] for choice in figure.choices) and not any("lm5" in t.get("text", ()) for t in figure.data[:-1])
     # It takes no part in the errors of its signal either.
     rows = {r["run"]: r for r in comparison.runs}
     assert rows["lm5"]["left_out"] and rows["lm5"]["ratio"] > 20.0

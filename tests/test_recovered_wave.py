@@ -80,3 +80,36 @@ def test_noise_has_no_wave_and_what_is_beyond_the_samples_neither():
     model, space = prepared(lambda load, sense: 0.0 * ANGLES)
     assert wave_of(space, space.base, range(len(space.records))) is None
     assert wave_of(space, space.base, []) is None
+
+
+@pytest.mark.parametrize(("name", "levels", "power"), [("temperature", (293.15, 323.15, 338.15), 2.0), ("speed", (50.0, 100.0, 200.0), -1.0), ("load", (50.0, 100.0, 160.0), 3.0)])
+def test_a_size_goes_with_a_power_of_what_varies(name, levels, power):
+    """One that grows with the square of the temperature was taken for the same everywhere."""
+    zero = 273.15 if name == "temperature" else 0.0
+
+    class Varied(Model):
+        def __init__(self):
+            rng = np.random.default_rng(3)
+            self.records = [
+                Record(f"{level:g} {k}", "transmission_error", "rad", f"{level:g}", k,
+                       self.centred(2.0 * ARCSEC * ((level - zero) / (levels[-1] - zero)) ** power * np.cos(52.0 * ANGLES + 0.7) + ARCSEC * rng.standard_normal(400)),
+                       {"angle": ANGLES}, {"load": 100.0, "direction": 1.0, "speed": 200.0, "temperature": 293.15, name: level})
+                for level in levels for k in (1, 2)
+            ]  # fmt: skip
+            self.campaign = Campaign(None, "", "", None, 121.0, 167.0, {}, (), {}, {}, (), None, "")
+
+    model = Varied()
+    doctor = Diagnostician(model)
+    doctor.prepare()
+    (law,) = recover(doctor.space, doctor.space.base, None, told_in(model))
+    growth = law.growth
+    assert (growth.factor, growth.zero, growth.top) == (name, pytest.approx(zero), pytest.approx(levels[-1] - zero))
+    assert growth.exponent == pytest.approx(power, abs=3.0 * growth.deviation) and growth.deviation < 0.3
+    assert math.hypot(*(law.forms[0].parameters[k] for k in "bc")) == pytest.approx(2.0, rel=0.15)
+    assert f"its size with ({name}/" in law.text and law.to_dict()["growth"]["factor"] == name and "at the largest" in page.figures(law, AXES["speed"])[0].layout["yaxis"]["title"]["text"]
+
+
+def test_what_is_the_same_everywhere_or_in_proportion_gets_no_power():
+    for factor in (lambda load, way: 1.0, lambda load, way: load / 100.0):
+        model, space = prepared(lambda load, sense, factor=factor: 0.6 * ARCSEC * factor(load, sense) * np.cos(47.3 * ANGLES + 0.7))
+        assert wave_of(space, space.base, range(len(space.records))).growth is None

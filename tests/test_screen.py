@@ -97,7 +97,7 @@ def test_signals_and_axes_have_the_units_of_the_field():
 
 def answer_of(verdict, held_out, rms=None, before=28.0, after=1.2, leftover=None, kind=None):
     """As much of an answer as its words need; one signal, of which the last run is held out."""
-    records = [SimpleNamespace(name=n, quantity="hysteresis", unit="rad", values=np.array([1e-3, -1e-3]), held_out=n == "b", left_out=False) for n in ("a", "b")]
+    records = [SimpleNamespace(name=n, quantity="hysteresis", unit="rad", values=np.array([1e-3, -1e-3]), held_out=n == "b", unused=n == "b", left_out=False) for n in ("a", "b")]
     whitener = SimpleNamespace(quantity="hysteresis", kept=np.array([True, True]), scale=np.full(2, 1e-3))
     space = SimpleNamespace(records=records, held_out=[1] if held_out else [], base=SimpleNamespace(values={}),
                             predictions=lambda values, which: [np.zeros(2) for _ in which],
@@ -142,14 +142,14 @@ def test_unused_runs_say_of_which_signals_they_are_where_others_have_none():
     [effect] = answer.effects
     assert "say nothing of" not in error_text(answer, effect)
     for quantity in ("transmission_error", "transmission_order"):
-        answer.diagnosis.fits.space.records.append(SimpleNamespace(name=quantity, quantity=quantity, unit="rad", held_out=False, left_out=False))
+        answer.diagnosis.fits.space.records.append(SimpleNamespace(name=quantity, quantity=quantity, unit="rad", held_out=False, unused=False, left_out=False))
     told = "; these runs are of hysteresis alone and say nothing of transmission error"
     assert error_text(answer, effect).endswith(told)
     drowned = answer_of(ONE, True, rms={"hysteresis": {"before": 1e-6, "after": 1e-6, "floor": 1e-3}})
     drowned.diagnosis.fits.space.records = answer.diagnosis.fits.space.records
     assert "prove little" in error_text(drowned, effect) and error_text(drowned, effect).endswith(told)
     # Orders are made of transmission errors: those that are held out are of both.
-    answer.diagnosis.fits.space.records[-1].held_out = True
+    answer.diagnosis.fits.space.records[-1].unused = True
     assert "say nothing of" not in error_text(answer, effect)
 
 

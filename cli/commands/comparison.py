@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cli.commands.drafting import run_draft
-from cli.commands.going_on import extend_line, line_after, lines_after_extending, named_in, nothing_added, refit_text, refusal
+from cli.commands.going_on import extend_line, line_after, lines_after_extending, named_in, nothing_added, other_lines, refit_text, refusal
 from cli.completion import completed_by, reducer_completions
 from cli.ending import exit_code
 from cli.exporting import add_exports, check_exports, write_exports
@@ -276,6 +276,8 @@ def add_effect(options: argparse.Namespace, file: "ModelFile", campaign: "Campai
             print(f"to keep it all the same:\n  {extend_line(again, names, anyway=True)}")
         for path in fmus:
             say_file(path, "FMU    ")
+        if extension.step["kept"] and not is_own(file, target):
+            print(other_lines(options, names, extension.step), end="")
         if extension.step["kept"] and not options.drafted:
             print(f"\n{lines_after_extending(options, str(target))}")
     say_page(options)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from cli.options import NOTHING_ADDED_CODE
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from typing import Any
 
     from discrepancy.model_file import ModelFile
@@ -101,6 +101,17 @@ def extend_line(options: argparse.Namespace, names: "Sequence[str]", anyway: boo
             words += [f"--{key}", given]
     words += [f"--{key}" for key in ("json", "overwrite") if getattr(options, key)]
     return shlex.join(words + ["--anyway"] * (anyway or options.anyway))
+
+
+def other_lines(options: argparse.Namespace, names: "Sequence[str]", step: "Mapping[str, Any]") -> str:
+    """The command lines that add, in place of what was added, what fits as well; each to a file of its own."""
+    found = []
+    for added, others in step.get("other_forms", {}).items():
+        for other in others:
+            instead = [other if name in (added, added.partition(".")[0]) else name for name in names]
+            given = argparse.Namespace(**vars(options) | {"output": f"{other.replace('.', '_')}.toml", "overwrite": False, "html": None, "fmus": None})
+            found.append(f"  {extend_line(given, instead)}\n")
+    return "".join(["to add another form that fits as well, to a file of its own:\n", *found]) if found else ""
 
 
 def refit_text(options: argparse.Namespace, file: "ModelFile", names: "Sequence[str]") -> str:

@@ -93,6 +93,9 @@ def look_alikes(candidate: str, model: PhysicalModel, found: Diagnosis) -> list[
             continue
         names = [p.variable.name for p in groups(effect)[sibling][0]]
         zeros = {name: rest.get(name, zero) + model.wave * turned for name, zero in model.zeros.items()}
+        if turned and not all(map(model.zero_bounds.hold, zeros.values())):
+            # The campaign says that angles do not count from there.
+            continue
         # Where nobody says the place of loops it is as well half a turn of the cranks on.
         loops = ({}, model.unstated_places.other(fitted)) if model.unstated_places.found else ({},)
         for sign, locked in product((1.0, -1.0), loops):

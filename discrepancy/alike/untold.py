@@ -1,6 +1,6 @@
 """What a campaign does not tell of effects that are named: which of two things they come from, and what does."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 from discrepancy.campaign.design import Design, turns
@@ -26,6 +26,31 @@ def parts_untold(effects: Sequence[Mapping[str, Any]]) -> list[str]:
     """Of named effects that would show the same at other parts: that no run tells at which they are, and what does."""
     several = (effect for effect in effects if effect.get("other_places"))
     return [f"at which part it is ({effect_words(effect['name'])} at {effect['place']}) stays open; {SAME_WITH_EACH}" for effect in several]
+
+
+def other_forms(effects: Sequence[Mapping[str, Any]], added: str, names: Container[str]) -> dict[str, str]:
+    """Forms that fit as well as the one ``added`` and stand for it in the ``effects`` that a diagnosis names, each with what is said of its fit; those
+    of ``names`` are added, too."""
+    for effect in effects:
+        if added not in effect["candidates"] or effect["forms"]:
+            continue
+        # What is said is in comparison with the first.
+        reasons = {f["candidates"][0]: f.get("reason", "") for f in effect.get("other_forms", ()) if added == effect["candidates"][0]}
+        return {c: reasons.get(c, "") for c in effect["candidates"] if c not in names}
+    return {}
+
+
+def forms_untold(forms: Mapping[str, Mapping[str, str]]) -> list[str]:
+    """By what was added its ``other_forms``: that these runs do not tell which it is, and how another is chosen."""
+    def told(others: Mapping[str, str]) -> str:
+        return ", or ".join(name + (f" ({reason})" if reason.startswith("fits worse") else "") for name, reason in others.items())
+
+    return [
+        f"which form of {effect_words(added.partition('.')[0])} it is {NOT_TOLD}: {added} was added, and {told(others)} fits as well; rvwear next says what"
+        f" would tell them apart, and rvwear extend with --effect {next(iter(others))} in place of {added} adds"
+        f" {'that' if len(others) == 1 else 'the first of these'} instead"
+        for added, others in forms.items() if others
+    ]
 
 
 def parts_untold_before(file: ModelFile) -> list[str]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from discrepancy.campaign.amount import split, to_si
 from discrepancy.campaign.file_format import FILE, REMEDY, CampaignFile, ConditionEntry, NuisanceEntry, RigEntry, Run, Stated, read_campaign_file
-from discrepancy.campaign.model import Campaign, Condition, Nuisance, Rig, Rows, Source
+from discrepancy.campaign.model import ENCODER_PHASE, Campaign, Condition, Nuisance, Rig, Rows, Source
 from discrepancy.campaign.order_tables import as_asked, given_quantity
 from discrepancy.campaign.quantities import ENCODERS, FACTOR_KEYS, QUANTITIES, TAGS, VALUE, Quantity, keys_for, numbers_of, roles_of
 from discrepancy.campaign.readers import Options, read_columns
@@ -272,7 +272,9 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
     """In the unit of the parameter of that name, else in SI base units."""
     name = kernels_name(name, place)
     tables = (scales.reducer.plant, scales.reducer.wear) if scales.reducer else ()
-    unit = next((t.by_name[name].unit for t in tables if name in t.by_name), None)
+    unit = "rad" if name == ENCODER_PHASE else next((t.by_name[name].unit for t in tables if name in t.by_name), None)
+    if name == ENCODER_PHASE:
+        require_zero(entry, place)
     if unit is None:
         to_si(entry.unit, entry.unit, f"{place}.unit = {entry.unit!r}")
         unit = f"{registry().Quantity(1.0, parse(entry.unit)).to_base_units().units:~C}" or "1"
@@ -280,7 +282,7 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
     if not entry.lower < entry.upper or not entry.lower <= entry.start <= entry.upper:
         raise InputFault(
             f"{place}: lower = {entry.lower:g}, start = {entry.start:g}, upper = {entry.upper:g} {entry.unit}: must rise in"
-            " this order"
+            f" this order{'' if 'start' in entry.model_fields_set else '; start is 0 where it is not given: give it'}"
         )
     prior = None if entry.prior is None else factor * entry.prior
     lower, start, upper = (factor * number + offset for number in (entry.lower, entry.start, entry.upper))
@@ -288,6 +290,16 @@ def nuisance_of(name: str, entry: NuisanceEntry, scales: Scales, place: str) -> 
     size = min(0.1 * (upper - lower), abs(start) or upper - lower)
     parameter = Parameter(name, unit, start, lower, upper, prior or size, 0, prior, entry.description)
     return Nuisance(parameter, entry.per)
+
+
+def require_zero(entry: NuisanceEntry, place: str) -> None:
+    """InputFault for what is stated of an encoder's zero and cannot be held to."""
+    if entry.per in ("condition", "run"):
+        raise InputFault(f'{place}.per = "{entry.per}": an encoder keeps its zero through a mounting; write per = "mounting", and state the mounting of'
+                         " runs before which it was set anew")  # fmt: skip
+    if entry.prior is not None:
+        raise InputFault(f"{place}.prior = {entry.prior:g} {entry.unit}: the zero is looked for by the pattern of the transmission error, alike everywhere"
+                         " between lower and upper; leave prior out, and state these closer")  # fmt: skip
 
 
 def rig_of(entry: RigEntry, scales: Scales, place: str) -> Rig:

@@ -46,6 +46,10 @@ class Rows:
     used: int
 
 
+# Nuisance: where a mounting counts its angles from.
+ENCODER_PHASE = "encoder_phase"
+
+
 @dataclass(frozen=True)
 class Nuisance:
     """A parameter that may be calibrated; one value for the whole campaign, or one per mounting, condition or run."""

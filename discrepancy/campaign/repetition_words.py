@@ -33,7 +33,9 @@ def words(found: Outlying) -> str:
 def what_is_done(found: Outlying) -> str:
     """Whether the run takes part, and what to do."""
     if found.left_out:
-        return f"left out of fit, errors, key figures and charts, for its repetitions agree without it; {LOOK}"
+        return f"left out of fit, errors and key figures (pages draw it in grey), for its repetitions agree without it; {LOOK}"
+    if found.by_chance:
+        return f"of so few that differ so chance makes one like it now and then, so that all count; {LOOK}"
     many = "the two" if found.count == 2 else "them, of which as many stand out as do not,"
     return f"which of {many} is wrong cannot be told, so that all count, as noise that hides what is smaller; {LOOK}"
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from discrepancy.campaign.model import ENCODER_PHASE
 from discrepancy.counted_from import mounting_of
 from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.fit import Fit
@@ -16,12 +17,24 @@ from discrepancy.problem import ERROR, ORDERS
 TURNED = 5.0
 # Root mean square, over the noise, of what a fit leaves of transmission errors: from more its zero may be another once the misfit is explained.
 UNFIT = 1.5
+# So near to a bound [deg of the output] a zero stands at it.
+AT_BOUND = 1e-4
 
 
 def zero_texts(model: PhysicalModel, space: Workspace, fit: Fit) -> list[str]:
-    """A sentence for each mounting in which curves and stated positions of the input count from one zero that ``fit`` has far from the model's."""
+    """A sentence for each mounting in which curves and stated positions of the input count from one zero that ``fit`` has far from the model's, and for
+    each zero at a bound that the campaign states."""
     found = [zero_text(name, at, left_of(space, fit, name) > UNFIT, model.unstated_places.period) for name, at in positions_at_zero(model, fit).items()]
-    return [text for text in found if text]
+    return [text for text in (*found, *bound_texts(model, fit)) if text]
+
+
+def bound_texts(model: PhysicalModel, fit: Fit) -> list[str]:
+    """Zeros that would go on beyond what the campaign states of them."""
+    bounds = model.zero_bounds
+    ends = [] if bounds.anywhere else [math.degrees(bounds.lower), math.degrees(bounds.upper)]
+    return [f"calibrated {name} = {end:.4g} deg stands at the bound that nuisances.{ENCODER_PHASE} of campaign.toml states: the pattern of the transmission"
+            " error would have it beyond; state wider bounds, or find what else turns the pattern"
+            for name in model.zeros if name in fit.values for end in ends if abs(math.degrees(fit.values[name]) - end) < AT_BOUND]  # fmt: skip
 
 
 def positions_at_zero(model: PhysicalModel, fit: Fit) -> dict[str, float]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from discrepancy.inference.law.closed_forms import Form
 from discrepancy.inference.law.recover import Recovered
+from discrepancy.inference.law.waves import Growth
 
 # Bounds of what was recovered (assumed): amplitudes up to so many times their size, rates and widths as many times longer or shorter.
 WIDE = 20.0
@@ -51,6 +52,8 @@ class Term:
 
 
 ONE, NOUGHT = "1.0", "0.0"
+# Letter of the exponent by which a wave's size goes with a condition.
+POWER = "q"
 
 
 @dataclass(frozen=True)
@@ -87,6 +90,8 @@ def written(law: Recovered, form: Form, with_level: bool) -> Expression:
     if not any(t.suffix != "level" for t in kept):
         # None of a law's terms is sure by itself, together they are: the largest stands for them.
         kept.append(max((t for t in terms if t.suffix != "level"), key=lambda t: abs(t.size)))
+    if law.growth:
+        shapes.append(grown(law.growth))
     in_si = tuple(replace(t, size=t.size / law.y_told[0], scale=t.scale / law.y_told[0]) for t in kept)
     return Expression(form, in_si, tuple(shapes), -offset / factor + 0.0, scale / factor)
 
@@ -209,6 +214,14 @@ def periodic(form: Form, low: float, high: float, scale: float) -> tuple[list[Te
         Term("sine", "c", "its sine part", p["c"], size, f"sin[{written}]", f"math.sin({phase})", f"k * math.cos({phase})"),
     ]
     return terms, [shape]
+
+
+def grown(growth: Growth) -> Shape:
+    """The power by which the size of a wave goes with a condition."""
+    p, half = growth.exponent, 1.96 * growth.deviation
+    low, high = (0.05, STEEPEST) if p > 0.0 else (-STEEPEST, -0.05)
+    value = min(max(p, low), high)
+    return Shape("growth", POWER, f"exponent of its size over {growth.factor}", value, low, high, looked(value, (p - half, p + half), low, high))
 
 
 def plain(value: float) -> str:

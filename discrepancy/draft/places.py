@@ -8,7 +8,9 @@ What would need a body, a spring in between or a signal's spectrum has none, and
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from discrepancy.draft.expression import POWER
 from discrepancy.inference.law.recover import Recovered
+from discrepancy.inference.law.waves import Growth
 
 PLANT, WEAR = "rv_plant", "wear_fmu"
 
@@ -71,6 +73,7 @@ TEMPERATURE = Axis("T", "temperature of the contacts", "K", "r.reducer_temperatu
 ANGLE = Axis("phi", "turning of the output", "rad", "r.ideal_output")
 # ``before`` and ``warm`` come before the speeds of this position are known: there the input's own counts.
 INPUT_SPEED = Axis("n", "speed of the input", "rad/s", "abs(r.input_speed)")
+CONDITIONS = {"load": LOAD, "speed": INPUT_SPEED, "temperature": TEMPERATURE}
 SUN_SPEED = Axis("n", "speed of the input", "rad/s", "speed")
 TURNED = ("transmission_error", "hysteresis", "lost_motion")
 # What shows a turning that goes with the torque, with the angle, or with neither.
@@ -108,18 +111,24 @@ def turning(law: Recovered, quantity: str, output_held: bool, zero_known: bool) 
     if quantity == "hysteresis" and law.factor is not None:
         raise NoPlace(f"the loop is off in proportion to the {law.factor} stated for it, which is not the torque that turns the output")
     torque = Axis("M", "torque at the output, its sign with it", "N.m", "r.load_torque")
-    known = {"load": LOAD, "speed": INPUT_SPEED, "temperature": TEMPERATURE} | \
+    known = CONDITIONS | \
         ({"torque": torque} if quantity == "hysteresis" else {"angle": ANGLE} if quantity == "transmission_error" else {})
     axis = axis_of(law, known, "the plant")
     along = axis in (torque, ANGLE)
     if not along and quantity != "lost_motion" and not zero_known:
         raise NoPlace(f"{quantity} counts from a zero that nobody knows: a turning that is the same all through a run does not show in it")
     forwards = {"hysteresis": "-", "lost_motion": "-0.5 * side * ", "transmission_error": ""}[quantity]
-    factor = DIRECTIONS.get(law.factor or "", "")
+    factor, said, size = DIRECTIONS.get(law.factor or "", ""), SAID.get(law.factor or "", ""), ""
     sided = [SIDE] if "side" in forwards + factor else []
+    growing = []
+    if law.growth:
+        grows, code = share_of(law.growth)
+        # What the law's axis says, it says at the largest value.
+        growing, factor, said = [f"size = max({code}, 1e-9) ** {POWER}"], f"size * {factor}", f"({share_text(law.growth)})^{POWER} {said}"
+        size = f"; its size goes with a power of the {grows.text}, {grows.symbol} in {grows.unit}"
     unit = f"rad{PER_LOAD.get(law.factor or '', '')}"
     apply = [
-        f"turn = {forwards}{factor}y",
+        *growing, f"turn = {forwards}{factor}y",
         "for crank in range(r.crank_turn_added.shape[0]):",
         "    # Rolling on, the cranks turn back by so much for each radian of the output.",
         "    r.crank_turn_added[crank] -= per_turn * turn",
@@ -133,11 +142,28 @@ def turning(law: Recovered, quantity: str, output_held: bool, zero_known: bool) 
         "lost_motion": "the output's between the torques of either sign",
         "transmission_error": "the output's ahead of ideal kinematics",
     }[quantity]
-    text = f"a further turning, {what}; put between sun and cranks, for where in the drive it arises this campaign does not say"
+    text = f"a further turning, {what}; put between sun and cranks, for where in the drive it arises this campaign does not say{size}"
     return Place(
-        PLANT, "before(r)", unit, f"turning = {SAID.get(law.factor or '', '')}", text, SHOWS.get(law.leading, TURNED), axis, tuple(apply), tuple(lines),
+        PLANT, "before(r)", unit, f"turning = {said}", text, SHOWS.get(law.leading, TURNED), axis, tuple(apply), tuple(lines),
         {"rv_plant.gear_stage": names}, slope=axis is ANGLE, level=not along or zero_known,
     )  # fmt: skip
+
+
+def share_of(growth: Growth) -> tuple[Axis, str]:
+    """How a hook reads what the size of a wave goes with, and the share of its largest value there."""
+    grows = axis_of_factor(growth.factor)
+    return grows, f"({grows.code}{f' - {growth.zero:.6g}' if growth.zero else ''}) / {growth.top:.6g}"
+
+
+def share_text(growth: Growth) -> str:
+    symbol = axis_of_factor(growth.factor).symbol
+    return f"{f'({symbol} - {growth.zero:.6g})' if growth.zero else symbol}/{growth.top:.6g}"
+
+
+def axis_of_factor(factor: str) -> Axis:
+    if factor not in CONDITIONS:
+        raise NoPlace(f"the size of the wave goes with the {factor}, which the plant does not know; it knows {', '.join(CONDITIONS)}")
+    return CONDITIONS[factor]
 
 
 def torque_lost(law: Recovered, drive: Drive) -> Place:

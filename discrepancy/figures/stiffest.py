@@ -1,6 +1,6 @@
-"""What to do where the measured reducer is stiffer than the model by a factor, which no effect makes it."""
+"""What to do where the measured reducer is stiffer than the model by a factor, which no effect makes it, or softer than one on rigid supports."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from discrepancy.prediction.units import Condition
 SUPPORTS = ("crank_seat_compliance", "carrier_seat_compliance", "carrier_twist_compliance", "ring_seat_compliance", "tooth_compliance")
 # Of the rated torque; of the compliance that a file gives, where a support hardly yields.
 FROM, TO, HARDLY = 0.5, 1.0, 1e-3
+# End of the names of library reducers whose supports do not yield; the same reducer with supports has the name without it.
+RIGID = "-rigid"
 
 
 def too_soft(figures: Sequence[KeyFigure], bench: Bench) -> list[str]:
@@ -26,6 +28,23 @@ def too_soft(figures: Sequence[KeyFigure], bench: Bench) -> list[str]:
     return [
         f"{first}; take a reducer file with stiffer supports (crank.support_compliance, carrier.compliance, housing.compliance ...; the library's"
         f" RV20E-121-rigid and BX-40E-rigid have none, and this reducer without would be {most:.2g} times as stiff)"
+    ]
+
+
+def too_rigid(figures: Sequence[KeyFigure], bench: Bench, library: Container[str]) -> list[str]:
+    """Of a diagnosis that leaves something: supports that yield and friction belong to the base; one spring, or one seat with memory, that stands for all of
+    them takes what a part that is off makes of the loops, and beside it that part does not show."""
+    times = [f.model / f.measured for f in figures if f.name == STIFFNESS and f.off < -CLEARLY and f.model > SOFTER * f.measured > 0.0]
+    if not times or any(bench.starts[0][name] for name in SUPPORTS):
+        return []
+    soft = bench.reducer.name.removesuffix(RIGID)
+    known = soft != bench.reducer.name and soft in library
+    own = "a reducer file with crank.support_compliance, carrier.compliance, housing.compliance and mesh.friction"
+    take = f"{soft} of the library" if known else own
+    return [
+        f"the measured reducer is {float(np.median(times)):.2g} times as soft as the model, whose supports do not yield: before parts are looked for, begin"
+        f" with a base that yields and rubs as real ones do (take {take}, and diagnose again); one effect that stands for all springs and friction here"
+        " hides what a part that is off makes of the same curves"
     ]
 
 

@@ -1,5 +1,6 @@
 """The page of a comparison: measured against predicted, and where they differ."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -8,6 +9,7 @@ from discrepancy.doubts.calibrated_deviations import AT_BOUND, deviations_of, st
 from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.figures.told_figures import drawn_text, others_text, told_figures
 from discrepancy.inference.chance import chance
+from discrepancy.inference.noise.series import stream_of
 from discrepancy.model_file import ModelFile
 from discrepancy.page import amounts, maps, numbers, panels, series, spectra, whys
 from discrepancy.page.runs import Run, by_signal, runs_of
@@ -26,10 +28,11 @@ MOST_CARDS = 6
 
 def page(result: Comparison) -> Page:
     space = result.diagnostician.space
-    runs = runs_of(space, result.predictions, of_axis("speed", result.model.campaign))
+    speed = of_axis("speed", result.model.campaign)
+    runs, apart = (runs_of(space, result.predictions, speed, left_out=gone) for gone in (False, True))
     orders, no_orders = order_figures(runs)
     gone = ", ".join(left_out(result))
-    but = f" but {gone}, left out," if gone else ""
+    but = f" ({gone}: left out)" if gone else ""
     # What one asks first: numbers, then curves, then maps.
     sections = [
         *figures_section(result.figures, result.model.file, bool(result.nuisances), result.of_chance),
@@ -37,7 +40,7 @@ def page(result: Comparison) -> Page:
             "runs",
             "Measured against predicted",
             " ".join([f"Every run of the campaign{but} beside the model's prediction of it.", *no_orders]),
-            run_figures("run", runs) + orders,
+            run_figures("run", runs, gone=apart) + orders,
         ),
         errors(result),
         localisation_section(
@@ -192,16 +195,17 @@ def localisation_section(places: list[dict[str, Any]], by_condition: dict[str, d
     return Section("localisation", "Where the model fails", lead, figures, tables)
 
 
-def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = panels.WORDS) -> list[Figure]:
-    """A figure per signal: series over their axis, numbers over their factors; series first."""
+def run_figures(prefix: str, runs: list[Run], words: tuple[str, str, str] = panels.WORDS, gone: Sequence[Run] = ()) -> list[Figure]:
+    """A figure per signal: series over their axis, numbers over their factors, with repetitions that are left out (``gone``); series first."""
     drawn = []
     for signal, members in by_signal(runs).items():
+        apart = [r for r in gone if stream_of(r.record) == signal and r.measured.size]
         lines = [r for r in members if r.series]
         single = [r for r in members if not r.series]
         if lines:
-            drawn.append(series.figure(prefix, signal, lines, words))
+            drawn.append(series.figure(prefix, signal, lines, words, gone=[r for r in apart if r.series]))
         if single:
-            drawn.append(numbers.figure(f"{prefix}_number", signal, single, words))
+            drawn.append(numbers.figure(f"{prefix}_number", signal, single, words, gone=[r for r in apart if not r.series]))
     return sorted(drawn, key=lambda f: -f.columns)
 
 

@@ -24,6 +24,7 @@ def figures(law: Recovered, speed: Scale) -> list[Figure]:
     """The leading curve over its points, and the other curves that matter."""
     factor, y_unit = law.y_told
     title = f"misfit / {law.factor}" if law.factor else f"misfit of {amounts.signal_title(law.signal.partition('[')[0])}"
+    title += f" at the largest {law.growth.factor}" if law.growth else ""
     title += f" [{amounts.pretty(y_unit)}]" if y_unit else ""
     name = f"law_{slug(law.signal)}"
     lead = next(c for c in law.curves if c.name == law.leading)

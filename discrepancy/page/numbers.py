@@ -12,6 +12,7 @@ from pages.content import Choice, Choosable
 from pages.look import Figure, short
 
 CONDITION = "condition"
+GONE = " Grey rings are repetitions that are left out of fit, noise and errors."
 
 
 def figure(
@@ -20,19 +21,21 @@ def figure(
     runs: Sequence[Run],
     words: tuple[str, str, str] = panels.WORDS,
     caption: str = "",
+    gone: Sequence[Run] = (),
 ) -> Figure:
-    """All numbers of one signal; the selector chooses what they are drawn over."""
+    """All numbers of one signal; the selector chooses what they are drawn over; ``gone``: repetitions that are left out."""
     unit = runs[0].record.unit
     names = [*varying(runs), CONDITION]
     choices = []
     for name in names:
         axis = panels.x_axis(CONDITION, type="category") if name == CONDITION else panels.x_axis(amounts.axis_title(name, runs[0].speed), type="linear")
         choices.append(
-            Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit), {"xaxis": axis})
+            Choice("each condition" if name == CONDITION else name.replace("_", " "), updates(runs, name, unit) + away(gone, name, unit), {"xaxis": axis})
         )
     layout = panels.layout(amounts.signal_axis(signal, unit), "difference", xaxis=choices[0].layout["xaxis"])
-    traces = [t | u for t, u in zip(template(words), choices[0].traces)]
+    traces = [t | u for t, u in zip(template(words) + [ringed()] * bool(gone), choices[0].traces)]
     text = caption or f"Dots: {words[0]}; bars are two standard deviations of the noise. Below, {words[2]}."
+    text += GONE if gone else ""
     return Choosable(
         f"{prefix}_{slug(signal)}", amounts.signal_title(signal).capitalize(), text, traces, layout, 6, 360, asks="over", choices=choices
     )
@@ -116,6 +119,22 @@ def updates(runs: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
     # Replicates have the same prediction: drawn once.
     marks = dict.fromkeys(zip(where(runs, name), short(factor * joined(runs, lambda r: r.predicted), 5)))
     return [*found, {"x": [a for a, _ in marks], "y": [b for _, b in marks]}]
+
+
+def ringed() -> dict[str, Any]:
+    """The trace of repetitions that are left out."""
+    return {"type": "scatter", "mode": "markers", "name": panels.LEFT_OUT, "marker": {"color": panels.FAINT, "symbol": "circle-open-dot", "size": 9},
+            "hovertemplate": "%{text}, left out: %{y}<extra></extra>"}  # fmt: skip
+
+
+def away(gone: Sequence[Run], name: str, unit: str) -> list[dict[str, Any]]:
+    """What ``ringed`` shows over one name, of runs that have it; nothing where there is no such trace."""
+    if not gone:
+        return []
+    members = [r for r in gone if name == CONDITION or places(r, name) is not None]
+    factor, _ = amounts.scale(unit, gone[0].record.quantity)
+    return [{"x": where(members, name), "y": short(factor * joined(members, lambda r: r.measured), 5),
+             "text": [r.record.name for r in members for _ in r.measured]}]  # fmt: skip
 
 
 def where(runs: Sequence[Run], name: str) -> list[Any]:

@@ -8,6 +8,8 @@ from fmu_src.arrays import Floats
 from pages import look
 
 MEASURED, PREDICTED, HELD, BAND = "#7d8894", look.NOW, "#d55e00", "rgba(11,79,148,0.14)"
+# A repetition that is left out: its name, its grey, and from how many times what the others span on it would press them flat, and shows when asked for.
+LEFT_OUT, FAINT, PRESSING = "left out", "#a3acb5", 4.0
 WORDS = ("measured", "predicted", "measured − predicted")
 # A way back by less than this share of the whole axis is noise of the axis.
 TURN = 0.02

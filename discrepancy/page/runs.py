@@ -59,11 +59,11 @@ def axis_of(run: Run) -> str:
     return name
 
 
-def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list[Floats] | None = None) -> list[Run]:
-    """All runs but those that are left out; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
+def runs_of(space: Workspace, predicted: list[Floats], speed: Scale, minus: list[Floats] | None = None, left_out: bool = False) -> list[Run]:
+    """All runs but those that are left out, or these alone; ``speed`` is how their campaign tells one, ``minus`` is taken off the measured values."""
     found = []
     for i, (record, y, whitener) in enumerate(zip(space.records, predicted, space.noise.whiteners)):
-        if record.left_out:
+        if record.left_out != left_out:
             continue
         # What stands far off is drawn with the noise of the others.
         kept = whitener.kept | ~record.counted

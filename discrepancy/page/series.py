@@ -20,6 +20,8 @@ MOST_REPLICATES = 4
 FREE = " The zero of this quantity is free: every run is drawn at its fitted zero."
 # Where a sample stands far off.
 FAR = " A diamond is a sample that stands far off: it lies outside of the axis, its number shows where one points at it."
+# Where a repetition was left out.
+GONE = " Dashed in grey is a repetition that is left out of fit, noise and errors; where it would press the others flat it shows when its name is clicked."
 EMPTY: dict[str, list[float]] = {"x": [], "y": []}
 
 
@@ -29,19 +31,27 @@ def figure(
     runs: Sequence[Run],
     words: tuple[str, str, str] = panels.WORDS,
     caption: str = "",
+    gone: Sequence[Run] = (),
 ) -> Figure:
-    """Every condition of one signal behind a selector; ``words`` name measured, predicted and their difference."""
+    """Every condition of one signal behind a selector; ``words`` name measured, predicted and their difference; ``gone``: repetitions that are left out."""
     unit = runs[0].record.unit
-    cells = by_condition(runs)
+    every = by_condition([*runs, *gone])
+    cells = {label: [r for r in members if not r.record.left_out] for label, members in every.items()}
+    apart = {label: [r for r in members if r.record.left_out] for label, members in every.items()}
     width = min(max(len(members) for members in cells.values()), MOST_REPLICATES)
     title = amounts.axis_title(axis_of(runs[0]))
-    traces = template(words, width) + [mark(words[0])] * any(run.outlying.any() for run in runs)
+    traces = template(words, width) + [dashed()] * bool(gone) + [mark(words[0])] * any(run.outlying.any() for run in runs)
     most = min(max(SAMPLES // len(cells), FEWEST), MOST)
-    choices = [Choice(label, updates(members[:width], unit, width, most) + marks(members[:width], unit, traces)) for label, members in cells.items()]
+    choices = [
+        Choice(label, [*updates(members[:width], unit, width, most), *([away(apart[label], members, unit, most)] if gone else []),
+                       *marks(members[:width], unit, traces)])
+        for label, members in cells.items()
+    ]  # fmt: skip
     step = max(stride(run, most) for run in runs)
     longest = max(len(members) for members in cells.values())
     text = caption or f"The band is two standard deviations of the noise of {whose_noise(runs)} around the blue line."
     text += FREE if any(run.zero for run in runs) else ""
+    text += GONE if gone else ""
     text += FAR if any(run.outlying.any() for run in runs) else ""
     text += f" Every {ordinal(step)} sample is drawn." if step > 1 else ""
     text += f" {MOST_REPLICATES} of up to {longest} replicates are drawn." if longest > MOST_REPLICATES else ""
@@ -152,6 +162,29 @@ def marks(members: Sequence[Run], unit: str, traces: Sequence[dict[str, Any]]) -
     values = factor * np.concatenate([run.measured[run.outlying] for run in members])
     above = values > 0.5 * (low + high)
     return [{"x": short(x, 5), "y": short(np.where(above, high, low), 4), "text": [f"{v:.4g}" for v in values]}]
+
+
+def dashed() -> dict[str, Any]:
+    """The trace of repetitions that are left out."""
+    return {"type": "scatter", "mode": "lines", "line": {"color": panels.FAINT, "width": 1.4, "dash": "dash"}, "name": panels.LEFT_OUT, "connectgaps": False,
+            "hovertemplate": "%{text}, left out: %{y} at %{x}<extra></extra>"}  # fmt: skip
+
+
+def away(gone: Sequence[Run], members: Sequence[Run], unit: str, most: int) -> dict[str, Any]:
+    """What ``dashed`` shows at one condition, one after another with a gap between."""
+    if not gone:
+        return {**EMPTY, "text": [], "showlegend": False}
+    factor, _ = amounts.scale(unit, gone[0].record.quantity)
+    drawn = [(*thinned(run, most)[:2], run.record.name) for run in gone]
+    gap = [np.nan]
+    x, y = (np.concatenate([part for run in drawn for part in (run[k], gap)]) for k in (0, 1))
+    return {"x": short(x, 5), "y": short(factor * y, 4), "text": [name for at, _, name in drawn for _ in (*at, *gap)], "showlegend": True,
+            "visible": "legendonly" if reach(gone) > panels.PRESSING * reach(members) else True}  # fmt: skip
+
+
+def reach(runs: Sequence[Run]) -> float:
+    """What curves span together."""
+    return float(np.ptp([bound for run in runs for bound in (np.nanmin(run.inside), np.nanmax(run.inside))]))
 
 
 def points(trace: dict[str, Any]) -> dict[str, Any]:

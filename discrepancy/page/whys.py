@@ -95,7 +95,7 @@ def of_samples(answer: Answer, signal: str, row: Mapping[str, float], unused: bo
     space = answer.diagnosis.fits.space
     unit = next((r.unit for r in space.records if stream_of(r) == signal), "1")
     kind = "held-out run" if unused else "fitted run"
-    runs = sum(stream_of(r) == signal and r.held_out == unused and not r.left_out for r in space.records)
+    runs = sum(stream_of(r) == signal and (r.unused if unused else r.fitted) for r in space.records)
     before, after, floor = (amounts.text(row[key], unit, signal) for key in ("before", "after", "floor"))
     return Why(
         "root mean square of measured − predicted over all samples, over that of the noise: the number that a comparison shows",

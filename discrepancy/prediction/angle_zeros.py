@@ -16,6 +16,7 @@ from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.over_angle import OverAngle, shifted_errors
 from discrepancy.prediction.parabola import vertex
 from discrepancy.prediction.whitening import gain
+from discrepancy.prediction.zero_bounds import ANYWHERE, ZeroBounds
 from discrepancy.problem import ERROR, ORDERS, Record
 from fmu_src.arrays import Floats
 
@@ -31,22 +32,23 @@ OF_CAGES = 0.25
 
 
 def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
-                standing: Mapping[str, float], always: bool, known: Mapping[str, float] | None = None) -> dict[str, float]:  # fmt: skip
+                standing: Mapping[str, float], always: bool, known: Mapping[str, float] | None = None,
+                bounds: ZeroBounds = ANYWHERE) -> dict[str, float]:  # fmt: skip
     """The output angle [rad] of the model at which a mounting's angle is 0, by its nuisance; one ``wave`` [rad] of the pattern is looked through.
 
     Of a model with parts that are off waves are not alike: then it is one that leaves least, of those alike that nearest to what is ``known``, or to 0.
 
     A zero that the campaign shares with the model is none, unless the campaign declares the encoder's phase as unknown (``always``), or the effects of the
-    model were fitted beside one.
+    model were fitted beside one. None lies outside of the ``bounds``.
     """
     zeros: dict[str, float] = {}
     for name, record in telling(bench, records).items():
         own = for_record(record, {**zeros, **standing})
-        place = 0.0 if known is None else place_in_turn(bench, record, own, wave, known.get(name, 0.0))
+        place = 0.0 if known is None else place_in_turn(bench, record, own, wave, known.get(name, bounds.start), bounds)
         if round(place / wave):
             zeros[name] = place
             continue
-        shifts = SHARES * wave
+        shifts = bounds.in_a_wave(SHARES, wave)
         found, left = shown_at(bench, record, own, shifts)
         misfits = [misfit(record, e) for e in left]
         best = int(np.argmin(misfits))
@@ -58,16 +60,16 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
     return zeros
 
 
-def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, near: float) -> float:
-    """The record's angle 0 [rad] within half a turn of ``near``: of waves that tell it alike in the nearest."""
-    half, nearest = round(np.pi / wave), round(near / wave)
-    shifts = wave * (np.arange(nearest - half, nearest + half)[:, None] + SHARES)
+def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, near: float, bounds: ZeroBounds = ANYWHERE) -> float:
+    """The record's angle 0 [rad] within half a turn of ``near``, or within the ``bounds``: of waves that tell it alike in the nearest."""
+    shifts = bounds.waves(SHARES, wave, near)
     few = thinned(record)
     misfits = np.reshape([misfit(few, e) for e in shown_at(bench, few, own, shifts.ravel())[1]], shifts.shape)
     # Waves are told apart by less than a step of phase changes, and than what lies between few nodes.
     # Where many are alike, those about the middle, too: a nearest one is among them.
-    likely = {*np.argsort(misfits.min(axis=1))[:LIKELY].tolist(), *range(half - NEAREST, half + NEAREST + 1)}
-    places = {k: between(shifts[k], misfits[k]) for k in sorted(likely)}
+    middle = int(np.argmin(np.abs(shifts.mean(axis=1) - near)))
+    likely = {*np.argsort(misfits.min(axis=1))[:LIKELY].tolist(), *range(max(middle - NEAREST, 0), min(middle + NEAREST + 1, len(shifts)))}
+    places = {k: bounds.held(between(shifts[k], misfits[k])) for k in sorted(likely)}
     left = {k: record.values - predicted_at(bench, record, own, at) for k, at in places.items()}
     best = min(left, key=lambda k: misfit(record, left[k]))
     # Rollers, whose cages are not placed yet, make some difference, too: nothing else may tell places apart.
@@ -79,7 +81,7 @@ def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: flo
     return min((places[k] for k in alike), key=lambda place: abs(place - near))
 
 
-def likely_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, zero: float) -> float:
+def likely_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: float, zero: float, bounds: ZeroBounds = ANYWHERE) -> float:
     """About the same as ``place_in_turn`` in a tenth of its time, for a hand that waits: the phase in a wave is that of ``zero``, or the best near it."""
     few = thinned(record)
     turn: Floats = wave * np.arange(-round(np.pi / wave), round(np.pi / wave)).astype(np.float64)
@@ -91,9 +93,9 @@ def likely_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: fl
         misfits = [np.array([next(left) for _ in row]) for row in shifts]
         return [float(row[np.argmin(off)]) for row, off in zip(shifts, misfits)]
 
-    here, there = best(zero + shares, zero + turn)
-    nearby, elsewhere = best(there + shares, here + turn)
-    [found] = best(np.concatenate([np.array([here, nearby]), elsewhere + shares]))
+    here, there = best(bounds.among(zero + shares), bounds.among(zero + turn))
+    nearby, elsewhere = best(bounds.among(there + shares), bounds.among(here + turn))
+    [found] = best(np.concatenate([np.array([here, nearby]), bounds.among(elsewhere + shares)]))
     return found
 
 
@@ -127,9 +129,9 @@ def between(places: Floats, misfits: Floats) -> float:
 
 
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
-               values: Mapping[str, float], names: Sequence[str]) -> tuple[float, dict[str, float]]:  # fmt: skip
+               values: Mapping[str, float], names: Sequence[str], bounds: ZeroBounds = ANYWHERE) -> tuple[float, dict[str, float]]:  # fmt: skip
     """Those of the zeros ``names`` [rad] that leave least of one record each beside an effect of ``values``, and what they leave, in its variance."""
-    shifts = SHARES * wave
+    shifts = bounds.in_a_wave(SHARES, wave)
     zeros, whole = {}, 0.0
     for name, record in telling(bench, records).items():
         if name in names:

@@ -4,14 +4,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from discrepancy.campaign.model import Nuisance
+from discrepancy.campaign.model import ENCODER_PHASE, Nuisance
 from discrepancy.prediction import chain
 from discrepancy.problem import Parameter, Record
 from fmu_src.faults import InputFault, nearest
 from fmu_src.table import Table
 
-# Nuisances that are no parameters of the reducer.
-ENCODER_PHASE, HOUSING_MASS = "encoder_phase", "housing_mass"
+# A nuisance that is no parameter of the reducer, as the encoder's phase is none.
+HOUSING_MASS = "housing_mass"
 
 
 def expanded(nuisance: Nuisance, records: list[Record]) -> list[Parameter]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.campaign.doubts import impossible_torque
-from discrepancy.campaign.model import Campaign
+from discrepancy.campaign.model import ENCODER_PHASE, Campaign
 from discrepancy.model_file import ModelFile, every_effect
 from discrepancy.outlying_samples import bridged, marked
 from discrepancy.prediction import model_error
@@ -28,7 +28,7 @@ from discrepancy.prediction.lives import WHOLE_SWEEP
 from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.locked_waves import LockedWaves
 from discrepancy.prediction.model_error import LOOPS, with_error
-from discrepancy.prediction.nuisances import ENCODER_PHASE, HOUSING_MASS, expanded, require_known
+from discrepancy.prediction.nuisances import HOUSING_MASS, expanded, require_known
 from discrepancy.prediction.observe import CHANGES, COARSE_CHANGES, OBSERVED, Changes
 from discrepancy.prediction.order_curves import curve_of, orders_shown
 from discrepancy.prediction.over_angle import glimpsed_angles, glimpsed_error
@@ -36,6 +36,7 @@ from discrepancy.prediction.over_torque import loop_error
 from discrepancy.prediction.placed_beside import PlacedBeside
 from discrepancy.prediction.stations import shared_stations
 from discrepancy.prediction.unstated_places import UnstatedPlaces, is_from_there, locked
+from discrepancy.prediction.zero_bounds import zero_bounds
 from discrepancy.problem import ERROR, ORDERS, Candidate, Parameter, Record, is_loop
 from discrepancy.repetitions import outlying, with_left_out
 from fmu_src.arrays import Floats
@@ -69,7 +70,7 @@ class Asked:
 class PhysicalModel(PlacedBeside):
     """Predicts a campaign's records with the compiled kernels, or by the FMUs of the folder ``fmus``.
 
-    ``unpredicted`` lists quantities that it has no prediction for; their records are left out.
+    ``unpredicted`` lists quantities that it has no prediction for; their records are left out.  ``outlying`` are all repetitions that stand out.
     """
 
     def __init__(self, model: ModelFile, campaign: Campaign, zeros: Mapping[str, float] | None = None,
@@ -78,7 +79,8 @@ class PhysicalModel(PlacedBeside):
         self.file, self.campaign, self.threads = model, campaign, Threads(1 if fmus else jobs)
         shown = [r for r in campaign.records if r.quantity in PREDICTED]
         # Told by all that was measured, as a check of the campaign does.
-        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), outlying(shown))
+        self.outlying = outlying(campaign.records)
+        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), self.outlying)
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         self.bench = bench_of(model, present, fmus)
@@ -104,6 +106,7 @@ class PhysicalModel(PlacedBeside):
         require_known(campaign.folder, nuisances, self.bench.tables)
         self.per = {n.parameter.name: n.per for n in nuisances}
         self.zeros: dict[str, float] = dict(zeros or {})
+        self.zero_bounds = zero_bounds(campaign.nuisances)
         # One wave of the pattern in the transmission error that says where angles count from [rad of the output]: discs take turns at the pins.
         self.discs = model.reducer.topology.discs
         self.wave = 2.0 * np.pi / (model.reducer.topology.pins * self.discs)
@@ -120,7 +123,7 @@ class PhysicalModel(PlacedBeside):
         self.without_own = {name: off[name] for name, value in present.items() if off.get(name, value) != value}
         if zeros is None:
             always, known = len(nuisances) < len(campaign.nuisances), model.zeros_of(campaign.name) if self.without_own else None
-            self.zeros = angle_zeros(self.bench, self.records, self.wave, self.for_record, self.standing(), always, known)
+            self.zeros = angle_zeros(self.bench, self.records, self.wave, self.for_record, self.standing(), always, known, self.zero_bounds)
         # Where an input was locked is counted as the angles of its mounting; how the pattern lies tells that well enough.
         for bench in (self.bench, in_process):
             bench.zeros.update(self.zeros)
@@ -152,7 +155,7 @@ class PhysicalModel(PlacedBeside):
 
     def angle_nuisances(self) -> list[Parameter]:
         found = [
-            Parameter(name, "rad", zero, zero - (self.discs - 0.5) * self.wave, zero + (self.discs - 0.5) * self.wave, 1e-3, 0, None,
+            Parameter(name, "rad", zero, *self.zero_bounds.of(zero, (self.discs - 0.5) * self.wave), 1e-3, 0, None,
                       "output angle of the model at the record's angle 0")
             for name, zero in self.zeros.items()
         ]  # fmt: skip

@@ -17,6 +17,7 @@ from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.locked_waves import LockedWaves
 from discrepancy.prediction.unstated_places import UnstatedPlaces
+from discrepancy.prediction.zero_bounds import ZeroBounds
 from discrepancy.problem import ERROR, Places, Record, is_unplaced
 from fmu_src.arrays import Floats
 
@@ -24,7 +25,8 @@ from fmu_src.arrays import Floats
 class PlacedBeside:
     """That part of a model of a campaign; how it predicts is another (``PhysicalModel``).
 
-    ``zeros`` by mounting [rad of the output], ``wave`` of the pattern that they were found by [rad of the output], ``discs`` that take turns at the pins.
+    ``zeros`` by mounting [rad of the output], which the ``zero_bounds`` hold, ``wave`` of the pattern that they were found by [rad of the output],
+    ``discs`` that take turns at the pins.
     """
 
     bench: Bench
@@ -32,6 +34,7 @@ class PlacedBeside:
     zeros: dict[str, float]
     wave: float
     discs: int
+    zero_bounds: ZeroBounds
     without_own: dict[str, float]
     lags: Lags
     cages: Cages
@@ -85,14 +88,14 @@ class PlacedBeside:
     def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
         """See ``problem.Placing``: zeros of angles, with the lag of the base model."""
         every = self.standing() | {name: value for name, value in values.items() if name != LAG_SHARE}
-        left, found = best_zeros(self.bench, self.records, self.wave, self.for_record, every, list(self.zeros))
+        left, found = best_zeros(self.bench, self.records, self.wave, self.for_record, every, list(self.zeros), self.zero_bounds)
         # The nearest of those that look alike.
-        return left, {name: zero + self.wave * round((self.zeros[name] - zero) / self.wave) for name, zero in found.items()}
+        return left, {name: self.zero_bounds.nearest(zero, self.wave, self.zeros[name]) for name, zero in found.items()}
 
     def zeros_in_turn(self, values: Mapping[str, float]) -> dict[str, float]:
         """Likely zeros of angles beside the effects in ``values``, looked for all round: beside parts that are off waves of the pattern are not alike."""
         every = self.standing() | dict(values)
-        return {name: likely_in_turn(self.bench, record, self.for_record(record, every), self.wave, self.zeros[name])
+        return {name: likely_in_turn(self.bench, record, self.for_record(record, every), self.wave, self.zeros[name], self.zero_bounds)
                 for name, record in telling(self.bench, self.records).items() if name in self.zeros}  # fmt: skip
 
     def unplaced(self) -> list[int]:
@@ -136,6 +139,8 @@ class PlacedBeside:
             for k in range(1, self.discs):
                 further = every[name] + k * self.wave
                 there = {name: further if further <= zero + (self.discs - 0.5) * self.wave else further - self.discs * self.wave}
+                if not self.zero_bounds.hold(there[name]):
+                    continue
                 turned = {direction: every[direction] + 2.0 * np.pi * k / self.discs for direction in directions}
                 found += [there, there | turned] if turned else [there]
         errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and r.fitted and angle_zero(r) in self.zeros]

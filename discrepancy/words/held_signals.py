@@ -11,7 +11,7 @@ def held_signals_text(records: Iterable[Record]) -> str:
     for record in records:
         name = (ERROR if record.quantity == ORDERS else record.quantity).replace("_", " ")
         all_of[name] = None
-        if record.held_out and not record.left_out:
+        if record.unused:
             held.add(name)
     others = [name for name in all_of if name not in held]
     if not held or not others:

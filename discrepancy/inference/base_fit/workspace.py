@@ -41,7 +41,7 @@ class Workspace:
         self.records = list(model.records)
         self.predictions = Predictions(model)
         self.training = [i for i, r in enumerate(self.records) if r.fitted]
-        self.held_out = [i for i, r in enumerate(self.records) if r.held_out and not r.left_out]
+        self.held_out = [i for i, r in enumerate(self.records) if r.unused]
         if not self.training:
             raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
 

@@ -1,7 +1,7 @@
 """The missing law without a name: how the misfit depends on conditions and axes, as curves and as closed forms."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.law.closed_forms import Form, propose
 from discrepancy.inference.law.splines import Curve, additive
-from discrepancy.inference.law.waves import WAYS, wave_of
+from discrepancy.inference.law.waves import GROWING, Growth, wave_of
 from discrepancy.inference.noise.series import order_axis, spacing_of, stream_of
 from discrepancy.words.intervals import general
 from fmu_src.arrays import Floats
@@ -47,11 +47,14 @@ class Recovered:
     text: str
     x_told: tuple[float, float, str] = (1.0, 0.0, "")
     y_told: tuple[float, str] = (1.0, "")
+    # Of a wave, what its size goes with.
+    growth: Growth | None = None
 
     def to_dict(self) -> dict[str, Any]:
         plain = dict(self.__dict__)
         plain["curves"] = [c.to_dict() for c in self.curves]
         plain["forms"] = [f.to_dict() for f in self.forms]
+        plain["growth"] = self.growth and asdict(self.growth)
         return plain
 
 
@@ -239,12 +242,12 @@ def tells_nothing(forms: Sequence[Form], way: str) -> bool:
 
 def _wave(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told: Told) -> Recovered | None:
     """The law of one wave over the angle, as the periodic form that it is."""
-    wave = wave_of(space, fit, indices)
+    zeros = {name: -offset / factor for name in GROWING for factor, offset, _ in (told(name),)}
+    wave = wave_of(space, fit, indices, zeros)
     if wave is None:
         return None
     rows = [r for r in _table(space, fit, indices) if "axis:angle" in r.places and not r.held]
-    way = WAYS[wave.way]
-    weights = [way({k.partition(":")[2]: v for k, v in r.places.items()}) for r in rows]
+    weights = [wave.weight({k.partition(":")[2]: v for k, v in r.places.items()}) for r in rows]
     x, y = np.array([r.places["axis:angle"] for r in rows]), np.array([r.y / w for r, w in zip(rows, weights)])
     deviation = np.array([np.sqrt(r.variance) / abs(w) for r, w in zip(rows, weights)])
     (factor, _, unit), y_told = told("angle"), _told(signal, wave.way, told)
@@ -258,10 +261,27 @@ def _wave(space: Workspace, fit: Fit, signal: str, indices: Sequence[int], told:
     phase = wave.order * (grid - 0.5 * (x.min() + x.max()))
     spread = np.full(grid.size, float(np.hypot(half[0], half[1])) / 1.96)
     curve = Curve("angle", grid, b * np.cos(phase) + c * np.sin(phase), spread, wave.gain / float(fit.residual @ fit.residual), 3.0)
-    text = _text(signal, wave.way, "angle", [form], unit, y_told[1])
+    text = f"{_text(signal, wave.way, 'angle', [form], unit, y_told[1])}: order {wave.order:.4g}"
+    if wave.growth:
+        keys = [k for k in rows[0].places if k.startswith("factor:") and all(k in r.places for r in rows) and len({r.places[k] for r in rows}) > 1]
+        text += f", {growth_text(wave.growth, told)}{beside(together(keys, rows), wave.growth.factor)}"
     points = {"x": x.tolist(), "y": y.tolist(), "deviation": deviation.tolist()}
     return Recovered(signal, False, [curve], "angle", None if wave.way == "none" else wave.way, points, [form], None, None,
-                     f"{text}: order {wave.order:.4g}", (factor, 0.0, unit), y_told)
+                     text, (factor, 0.0, unit), y_told, wave.growth)
+
+
+def growth_text(growth: Growth, told: Told) -> str:
+    """What the size of a wave goes with, in the unit of the campaign."""
+    factor, _, unit = told(growth.factor)
+    low, high = (growth.exponent + 1.96 * side * growth.deviation for side in (-1.0, 1.0))
+    top = general(factor * growth.top, 4)
+    return f"its size with ({growth.factor}/{top}{unit and ' ' + unit})^{growth.exponent:.3g} ({low:.3g} to {high:.3g}), which is 1 at the largest measured"
+
+
+def beside(alike: Mapping[str, list[str]], factor: str) -> str:
+    """What changed with a factor and never apart."""
+    others = [k.partition(":")[2] for first, rest in alike.items() if f"factor:{factor}" in (first, *rest) for k in (first, *rest)]
+    return f" ({' and '.join(k for k in others if k != factor)} changed with it)" if len(others) > 1 else ""
 
 
 def _told(signal: str, way: str, told: Told) -> tuple[float, str]:

@@ -1,12 +1,12 @@
-"""One wave over the angle in what a fit leaves: its order, its size, and whether it goes with load or direction.
+"""One wave over the angle in what a fit leaves: its order, its size, and whether it goes with load or direction, or with a power of what varies.
 
 Means of neighbouring samples (``recover``) show orders up to a dozen; here all samples of the runs are held, whitened, against cosine
 and sine of every order that they resolve.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,9 +29,35 @@ WAYS: dict[str, Callable[[Mapping[str, float]], float]] = {
 }  # fmt: skip
 
 
+# What the size of a wave may go with, by a power between these; steps of the search for it.
+GROWING, STEEPEST, POWERS, FINER = ("load", "temperature", "speed", "hours"), 8.0, 0.5, 0.05
+# Chi-square that it must gain by a power of its own (assumed), and share of what the wave gains at all: laws have their form to a few percent.
+BY_POWER, OF_GAIN = 12.0, 0.02
+# No power of 0 is taken.
+LEAST = 1e-9
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A size goes with ((factor - zero)/top)^exponent, 1 at the largest measured value; in SI, the ``zero`` that of the unit in which it is told."""
+
+    factor: str
+    zero: float
+    top: float
+    exponent: float
+    deviation: float = 0.0
+
+    def share(self, factors: Mapping[str, float]) -> float:
+        return max((factors[self.factor] - self.zero) / self.top, LEAST)
+
+    def of(self, factors: Mapping[str, float]) -> float:
+        return float(self.share(factors) ** self.exponent)
+
+
 @dataclass(frozen=True)
 class Wave:
-    """misfit = way * (b cos(n phi) + c sin(n phi)), n per radian; ``covariance`` of (b, c, n); ``gain`` in chi-square, ``error`` left in noise units."""
+    """misfit = way * growth * (b cos(n phi) + c sin(n phi)), n per radian; ``covariance`` of (b, c, n); ``gain`` in chi-square, ``error`` left in noise
+    units."""
 
     way: str
     order: float
@@ -40,6 +66,11 @@ class Wave:
     covariance: Floats
     gain: float
     error: float
+    growth: Growth | None = None
+
+    def weight(self, factors: Mapping[str, float]) -> float:
+        """What the amplitudes are multiplied by in a run at these conditions."""
+        return WAYS[self.way](factors) * (self.growth.of(factors) if self.growth else 1.0)
 
     def about(self, middle: float) -> tuple[float, float, Floats]:
         """(b, c, covariance) of the same wave counted from the angle ``middle`` [rad]."""
@@ -50,8 +81,11 @@ class Wave:
         return b, c, moved @ self.covariance @ moved.T
 
 
-def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
-    """The wave that takes most of the misfit of these records' training runs; None if chance does as much, or no run has an angle."""
+def wave_of(space: Workspace, fit: Fit, indices: Sequence[int], zeros: Mapping[str, float] = {}) -> Wave | None:
+    """The wave that takes most of the misfit of these records' training runs; None if chance does as much, or no run has an angle.
+
+    ``zeros``: of conditions, in SI, where the unit in which they are told has its 0.
+    """
     runs = {i: angle for i in indices if not space.records[i].held_out and (angle := order_axis(space.records[i])) is not None}
     if not runs:
         return None
@@ -75,7 +109,33 @@ def wave_of(space: Workspace, fit: Fit, indices: Sequence[int]) -> Wave | None:
     gain, way, order, weights = max(found, key=lambda f: f[0])
     if gain < 2.0 * math.log(len(orders)) + BEYOND_CHANCE:
         return None
-    return refined(space, runs, weights, misfit, way, order)
+    grown = max((g for _, way, order, _ in found for g in growths(space, runs, misfit, way, order, zeros)), key=lambda g: g[0], default=None)
+    if grown is not None and grown[0] > gain + max(BY_POWER, OF_GAIN * gain):
+        return refined(space, runs, misfit, *grown[1:])
+    return refined(space, runs, misfit, way, order)
+
+
+def growths(space: Workspace, runs: Mapping[int, Floats], misfit: Floats, way: str, order: float,
+            zeros: Mapping[str, float]) -> Iterator[tuple[float, str, float, Growth]]:  # fmt: skip
+    """(gain in chi-square, way, order, growth) of a wave whose size goes with what varies from run to run, for each of that the best power."""
+    factors = {i: space.records[i].factors for i in runs}
+
+    def best(some: Sequence[Growth]) -> tuple[float, Growth]:
+        every = [{i: WAYS[way](f) * g.of(f) for i, f in factors.items()} for g in some]
+        found = [scan[0][0] for scan in gains(space, runs, every, misfit, np.array([order]))]
+        return max(found), some[int(np.argmax(found))]
+
+    for name in GROWING:
+        levels = {f[name] - zeros.get(name, 0.0) for f in factors.values() if name in f}
+        if name in way or len(levels) < 2 or any(name not in f for f in factors.values()) or min(levels) < 0.0:
+            continue
+        at_most = Growth(name, zeros.get(name, 0.0), max(levels), STEEPEST)
+        # What is 0 somewhere has no power below 0.
+        least = -STEEPEST if min(levels) > 0.0 else POWERS
+        powers = [replace(at_most, exponent=float(p)) for p in np.arange(least, STEEPEST + POWERS, POWERS) if p]
+        near = best(powers)[1].exponent + np.arange(-POWERS, POWERS, FINER)
+        gain, growth = best([replace(at_most, exponent=float(p)) for p in near if least <= p <= STEEPEST and abs(p) > LEAST])
+        yield gain, way, order, growth
 
 
 def ways(factors: Sequence[Mapping[str, float]]) -> list[str]:
@@ -112,15 +172,21 @@ def gains(
     return found
 
 
-def refined(space: Workspace, runs: Mapping[int, Floats], weights: Mapping[int, float], misfit: Floats, way: str, order: float) -> Wave:
-    """Amplitudes and order together, one step of Gauss and Newton from the scan's finer grid, with their covariance."""
+def refined(space: Workspace, runs: Mapping[int, Floats], misfit: Floats, way: str, order: float, growth: Growth | None = None) -> Wave:
+    """Amplitudes and order together, and the power of a growth, one step of Gauss and Newton from the scan's finer grid, with their covariance."""
+    factors = {i: space.records[i].factors for i in runs}
+    weights = {i: WAYS[way](f) * (growth.of(f) if growth else 1.0) for i, f in factors.items()}
     cos, sin = columns(space, runs, weights, np.array([order]))
     b, c = np.linalg.lstsq(np.hstack([cos, sin]), misfit, rcond=None)[0]
-    slope = space.whiten({i: weights[i] * a * (c * np.cos(order * a) - b * np.sin(order * a)) for i, a in runs.items()})
-    design = np.hstack([cos, sin, slope[:, None]])
-    step = np.linalg.lstsq(design, misfit - b * cos[:, 0] - c * sin[:, 0], rcond=None)[0]
-    left = misfit - b * cos[:, 0] - c * sin[:, 0] - design @ step
-    size = float(left @ left) / max(int(np.count_nonzero(misfit)) - 3, 1)
-    covariance = np.linalg.pinv(design.T @ design) * max(size, 1.0)
+    design = [cos[:, 0], sin[:, 0], space.whiten({i: weights[i] * a * (c * np.cos(order * a) - b * np.sin(order * a)) for i, a in runs.items()})]
+    if growth:
+        bent = {i: weights[i] * math.log(growth.share(f)) for i, f in factors.items()}
+        design.append(space.whiten({i: bent[i] * (b * np.cos(order * a) + c * np.sin(order * a)) for i, a in runs.items()}))
+    slopes = np.column_stack(design)
+    step = np.linalg.lstsq(slopes, misfit - b * cos[:, 0] - c * sin[:, 0], rcond=None)[0]
+    left = misfit - b * cos[:, 0] - c * sin[:, 0] - slopes @ step
+    size = float(left @ left) / max(int(np.count_nonzero(misfit)) - len(design), 1)
+    covariance = np.asarray(np.linalg.pinv(slopes.T @ slopes) * max(size, 1.0), np.float64)
     gain = float(misfit @ misfit - left @ left)
-    return Wave(way, order + float(step[2]), float(b + step[0]), float(c + step[1]), covariance, gain, math.sqrt(size))
+    grown = replace(growth, exponent=growth.exponent + float(step[3]), deviation=math.sqrt(covariance[3, 3])) if growth else None
+    return Wave(way, order + float(step[2]), float(b + step[0]), float(c + step[1]), covariance[:3, :3], gain, math.sqrt(size), grown)
