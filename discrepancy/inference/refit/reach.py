@@ -53,7 +53,8 @@ def pairs(space: Workspace, result: Refit) -> list[tuple[int, int]]:
 
 def reach(space: Workspace, result: Refit) -> Reach:
     """How far the amplitudes of a fit that do nearly the same may go to either side, or the first better place on the way."""
-    fit, stretch = result.fit, {}
+    fit = result.fit
+    stretch: dict[str, tuple[float, float]] = {}
     x, names = Box(fit.parameters).array(fit.values), fit.names
     for k, j in pairs(space, result):
         half = HALF * np.sqrt(np.diag(result.covariance))
