@@ -175,6 +175,7 @@ class Diagnostician:
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
+        final = self.refits.reaching(final)
         self.doing = f"looking for what could stand in place of {final.name}"
         if len(final.candidates) == 1:
             self.outlook.after(NAMED)
@@ -193,7 +194,7 @@ class Diagnostician:
                 members.insert(0, final)
             members += selection.adequate(rivals, members)
             open_ones = unsettled(rivals, members, final, settings.margin)
-            members += open_ones
+            members = [m if m is final else self.refits.reaching(m) for m in [*members, *open_ones]]
         else:
             members = [final]
             for c in final.candidates:
@@ -325,8 +326,8 @@ class Diagnostician:
         return self.refits.fit(names)
 
     def final(self, names: Sequence[str]) -> Refit:
-        """The fit of the named effects as it is reported, wherever."""
-        return self.refits.final(names)
+        """The fit of the named effects as it is reported, wherever, with its intervals as they are told."""
+        return self.refits.reaching(self.refits.final(names))
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""

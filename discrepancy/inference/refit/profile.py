@@ -16,6 +16,8 @@ from fmu_src.arrays import Floats
 
 # Places in standard deviations of the linear interval.
 AWAY = (-3.5, -1.75, 0.0, 1.75, 3.5)
+# Of chi-square: what gains less needs no further correction.
+ENOUGH = 0.1
 
 
 @dataclass(frozen=True)
@@ -42,11 +44,39 @@ def profiles(space: Workspace, result: Refit) -> list[Profile]:
             continue
         # From one end of a valley to the other.
         core = (best[k], *along.get(p.name, ((), ()))[0])
-        places = np.unique(np.clip([min(core) if a < 0.0 else max(core) if a > 0.0 else best[k] for a in AWAY] + deviation * np.array(AWAY), p.lower, p.upper))
+        below, above = result.stretch.get(p.name, (1.0, 1.0))
+        away = deviation * np.array([a * (below if a < 0.0 else above) for a in AWAY])
+        places = np.unique(np.clip([min(core) if a < 0.0 else max(core) if a > 0.0 else best[k] for a in AWAY] + away, p.lower, p.upper))
         others = np.array([j for j in range(len(names)) if j != k], dtype=np.intp)
         chi2 = space.threads.map(partial(moved, space, result, best, k, others), [float(value) for value in places])
         found.append(Profile(p.name, p.unit, places, np.array(chi2) - fit.chi2, deviation, p.is_direction))
     return found
+
+
+def followed(space: Workspace, result: Refit, k: int, start: Floats, rounds: int) -> tuple[float, Floats]:
+    """Chi-square with parameter ``k`` as in ``start`` and the others where they fit best, by the fit's own sensitivities corrected so often, and all places."""
+    fit, box, x = result.fit, Box(result.fit.parameters), start
+    others = np.array([j for j in range(len(x)) if j != k], dtype=np.intp)
+    rest = Box([fit.parameters[j] for j in others])
+    normal = fit.normal[np.ix_(others, others)] * np.outer(rest.scale, rest.scale)
+
+    def chi_square(at: Floats) -> tuple[float, Floats]:
+        with near(fit.values):
+            residual = space.residual(box.named(at))
+        return float(residual @ residual) + box.prior_cost(at), residual
+
+    least, residual = chi_square(x)
+    for _ in range(rounds):
+        trial = x.copy()
+        gradient = fit.jacobian[:, others].T @ residual - box.prior_gradient(x)[others]
+        trial[others] += rest.step(x[others], normal, rest.scale * gradient)
+        found, residual = chi_square(trial)
+        gain = least - found
+        if gain > 0.0:
+            least, x = found, trial
+        if gain < ENOUGH:
+            break
+    return least, x
 
 
 def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndarray, value: float) -> float:
@@ -59,15 +89,8 @@ def moved(space: Workspace, result: Refit, best: Floats, k: int, others: np.ndar
     rest = Box([fit.parameters[j] for j in others])
     normal = fit.normal[np.ix_(others, others)] * np.outer(rest.scale, rest.scale)
     x[others] += rest.step(x[others], normal, -rest.scale * fit.normal[others, k] * (value - best[k]))
-    with near(fit.values):
-        residual = space.residual(box.named(x))
-    first = float(residual @ residual) + box.prior_cost(x)
     # What the sensitivities did not foretell, the others follow once more.
-    gradient = fit.jacobian[:, others].T @ residual - box.prior_gradient(x)[others]
-    x[others] += rest.step(x[others], normal, rest.scale * gradient)
-    with near(fit.values):
-        residual = space.residual(box.named(x))
-    least = min(first, float(residual @ residual) + box.prior_cost(x))
+    least, _ = followed(space, result, k, x, 1)
     if least - fit.chi2 <= fit.normal[k, k] * (value - best[k]) ** 2:
         return least
     # A kink lies between (a proud pin that is not between two is as high as it is): where the others follow it is worse than where they stay.

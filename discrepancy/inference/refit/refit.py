@@ -1,8 +1,8 @@
 """Nonlinear refit of candidates, intervals of their parameters, leave-one-condition-out error."""
 
 from collections import defaultdict
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -53,13 +53,17 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Refit:
-    """One or several effects fitted together.  ``response`` (N,) is their whitened contribution."""
+    """One or several effects fitted together.  ``response`` (N,) is their whitened contribution.
+
+    ``stretch``: by amplitude, how many times as far below and above its value its interval ends as the covariance says, where a valley is bent (``reach``).
+    """
 
     candidates: tuple[Candidate, ...]
     fit: Fit
     gain: float
     response: Floats
     covariance: Floats
+    stretch: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -136,7 +140,8 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
         if shape and p.lower > 0 and value > 0:
             low, high = value * np.exp(-half / value), value * np.exp(half / value)
         else:
-            low, high = value - half, value + half
+            below, above = result.stretch.get(p.name, (1.0, 1.0))
+            low, high = value - below * half, value + above * half
         core, others = along.get(p.name, ((value, value), ()))
         low, high = low + core[0] - value, high + core[1] - value
         interval = (float(max(low, p.lower)), float(min(high, p.upper)))

@@ -11,6 +11,7 @@ from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, jointly, left_by, there
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
+from discrepancy.inference.refit.reach import reach
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Placing
@@ -23,6 +24,8 @@ BETTER = 1.0
 SURELY = 25.0
 # Chi-square by sample of a fit that may leave something.
 LEFT = 1.0
+# So often a walk along a valley begins anew, each time where it is better.
+MOST_WALKS = 5
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
 AGAIN = 3
 
@@ -113,6 +116,25 @@ class Refits:
                     self.final_fits.pop(frozenset([name]), None)
                     self.fitted[frozenset([name])] = finished(self.space, known.candidates, fit)
         return self.fitted[frozenset([name])]
+
+    def reaching(self, result: Refit) -> Refit:
+        """A fit that is named, with the ends of its intervals where the valley of two amplitudes ends; from a better place, where one lies on the way."""
+        if result.stretch:
+            return result
+        key = frozenset(c.name for c in result.candidates)
+        found = reach(self.space, result)
+        for _ in range(MOST_WALKS):
+            if found.better is None:
+                break
+            values = {**result.fit.values, **found.better}
+            self.final_fits.pop(key, None)
+            other = self.renewed(finished(self.space, result.candidates, there(self.space, replace(result.fit, values=values))))
+            if other.fit.chi2 > result.fit.chi2 - BETTER:
+                break
+            result = other
+            found = reach(self.space, result)
+        self.fitted[key] = self.final_fits[key] = replace(result, stretch=found.stretch)
+        return in_order(self.fitted[key], result.candidates)
 
     def without(self, joint: Refit, name: str) -> Refit:
         """The fit of the others of ``joint`` as it is reported, from its own start and from where they stand in ``joint``."""
