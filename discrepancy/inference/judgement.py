@@ -10,6 +10,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation, Localiser
+from discrepancy.inference.refit.confusable import is_settled, penalised
 from discrepancy.inference.refit.refit import Refit, leave_condition_out
 
 # Of chi-square that unused runs gain of noise alone in one campaign in twenty.
@@ -94,6 +95,22 @@ class Judgement:
     def alone(self, result: Refit) -> HeldOut | None:
         """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, over other patterns."""
         return self.held_out([result]).judge(result) if self.space.held_out else None
+
+    def foretold(self, final: Refit, near: Sequence[Refit], margin: float) -> Refit:
+        """``final``, or the one of ``near`` that all runs together speak for by more than ``margin`` of chi-square, where unused runs speak against ``final``."""
+        if not near or not self.space.held_out:
+            return final
+        judge = self.held_out([final, *near])
+        judged = {r.name: judge.judge(r) for r in (final, *near)}
+        if not against(judged[final.name]):
+            return final
+
+        def whole(result: Refit) -> float:
+            one = judged[result.name]
+            return penalised(result) + (one.surprise if one else 0.0)
+
+        best = min([r for r in near if not against(judged[r.name]) and is_settled(r)], key=whole, default=final)
+        return best if whole(best) < whole(final) - margin else final
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""

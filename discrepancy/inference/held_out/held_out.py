@@ -31,6 +31,7 @@ class HeldOut:
     """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left.
 
     ``gain`` is what they gain in chi-square.  Not ``seen``: what is judged does nothing in these runs, so that they speak neither for nor against it.
+    ``surprise``: minus twice the logarithm of how likely they are by the fit, as well as it knows them; beside that of a rival over the same directions.
     """
 
     before: float
@@ -40,6 +41,7 @@ class HeldOut:
     kind: str
     seen: bool = True
     gain: float = 0.0
+    surprise: float = 0.0
 
 
 class HeldOutJudge:
@@ -121,7 +123,7 @@ class HeldOutJudge:
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
-                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after)
+                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after, unexplained + float(np.linalg.slogdet(expected)[1]))
 
     def tells(self, one: Refit, other: Refit) -> bool:
         """Whether these runs differ by more than noise between two fits."""

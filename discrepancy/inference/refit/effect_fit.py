@@ -39,6 +39,8 @@ ROUGH_ROUNDS, ROUNDS = 4, 8
 # A fit that is searched for, of which a further step promises more than this chi-square, takes sensitivities anew so often: a wear
 # coefficient multiplies what a law does, and the base fit's says little where the law has halved the wear.
 UNFINISHED, ANEW = 5.0, 3
+# Where the nuisances that follow gain more than this share of what was promised without them, the effect stands where frozen ones had put it.
+BENT = 0.05
 
 
 def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False,
@@ -69,6 +71,8 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
         found = min(found, jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
+    elif promised - found.chi2 > BENT * (space.base.chi2 - promised) + 1.0 and may_reach(found, least):
+        found = min(found, jointly(space, parameters, found.values, names, exact_every=1, least=least), key=lambda f: f.chi2)
     if widely:
         found = _from_elsewhere(space, found, candidates, least)
     return _kept_if_better(space, found, own)
