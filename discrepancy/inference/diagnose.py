@@ -175,7 +175,8 @@ class Diagnostician:
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
-        refuted, final = final, judgement.foretold(final, selection.little_worse(final, rivals), settings.margin)
+        weighed = judgement.weighed(final, selection.little_worse(final, rivals), settings.margin)
+        fits_best, final = final, weighed.likeliest(final)
         self.doing = f"looking for what could stand in place of {final.name}"
         if len(final.candidates) == 1:
             self.outlook.after(NAMED)
@@ -189,18 +190,18 @@ class Diagnostician:
         if len(final.candidates) == 1:
             # Found beside another, it may be a better fit than it was alone.
             rivals = [final, *(r for r in rivals if r.candidates != final.candidates)]
-            # What fits better than it and was refuted by unused runs stands beside it no more.
-            open_to_all = [r for r in rivals if r is final or refuted is final or penalised(r) >= penalised(final)]
-            members = confusable_set(open_to_all, widened, dof, settings.margin)
+            # What unused runs refute stands beside it no more, however well it fits the others.
+            left = [r for r in rivals if not weighed.refuted(r, final)]
+            members = confusable_set(left, widened, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)
-            members += selection.adequate(open_to_all, members)
-            open_ones = unsettled(open_to_all, members, final, settings.margin)
+            members += selection.adequate(left, members)
+            open_ones = unsettled(left, members, final, settings.margin)
             members += open_ones
         else:
             members = [final]
             for c in final.candidates:
-                stand_ins = selection.stand_ins(final, c, widened, dof)
+                stand_ins = [r for r in selection.stand_ins(final, c, widened, dof) if not weighed.refuted(r, final)]
                 if stand_ins:
                     alternatives[c.name] = stand_ins
         self.report([*members, *rivals])
@@ -223,8 +224,8 @@ class Diagnostician:
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
-        if refuted is not final:
-            reason += f"; {refuted.name} fits better by {chi_text(final.fit.chi2 - refuted.fit.chi2)} of chi-square, but runs that were not used refute it"
+        if fits_best is not final:
+            reason += f"; {fits_best.name} fits better by {chi_text(final.fit.chi2 - fits_best.fit.chi2)} of chi-square, but runs that were not used refute it"
         if verdict in (ONE, SET) and open_ones:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:

@@ -1,6 +1,7 @@
 """Is it enough: what a fit leaves, what runs say that were not used, and by how much that widens intervals."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -46,6 +47,33 @@ def widening(over: bool, inflation: float) -> float:
     return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
 
 
+def names_of(result: Refit) -> frozenset[str]:
+    return frozenset(c.name for c in result.candidates)
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """Fits by name with what unused runs say of each, over directions that they have in common; ``margin`` in chi-square from which one is less likely."""
+
+    judged: Mapping[str, tuple[Refit, HeldOut]]
+    margin: float
+
+    def whole(self, result: Refit) -> float:
+        """Chi-square of all runs with the price of what is fitted, of those that were not used as well as the fit can know them."""
+        return penalised(result) + self.judged[names_of(result)][1].surprise
+
+    def refuted(self, result: Refit, first: Refit) -> bool:
+        """Whether unused runs speak against ``result``, and all runs together for ``first`` instead."""
+        known = names_of(result) in self.judged and names_of(first) in self.judged
+        return known and bool(against(self.judged[names_of(result)][1])) and self.whole(result) > self.whole(first) + self.margin
+
+    def likeliest(self, final: Refit) -> Refit:
+        """``final``, or the plain fit that all runs together speak for where unused ones speak against ``final``."""
+        plain = [r for r, judged in self.judged.values() if not against(judged) and is_settled(r)]
+        best = min(plain, key=self.whole, default=final)
+        return best if self.refuted(final, best) else final
+
+
 class Judgement:
     """Judges fits on the runs that were fitted and on those that were not; ``level`` is that of what a fit leaves."""
 
@@ -82,7 +110,7 @@ class Judgement:
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""
-        key = frozenset(c.name for c in result.candidates)
+        key = names_of(result)
         if key not in self.inflations:
             over, _, _, inflation = self.leftover(result)
             self.inflations[key] = widening(over, inflation)
@@ -96,21 +124,11 @@ class Judgement:
         """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, over other patterns."""
         return self.held_out([result]).judge(result) if self.space.held_out else None
 
-    def foretold(self, final: Refit, near: Sequence[Refit], margin: float) -> Refit:
-        """``final``, or the one of ``near`` that all runs together speak for by more than ``margin`` of chi-square, where unused runs speak against ``final``."""
-        if not near or not self.space.held_out:
-            return final
-        judge = self.held_out([final, *near])
-        judged = {r.name: judge.judge(r) for r in (final, *near)}
-        if not against(judged[final.name]):
-            return final
-
-        def whole(result: Refit) -> float:
-            one = judged[result.name]
-            return penalised(result) + (one.surprise if one else 0.0)
-
-        best = min([r for r in near if not against(judged[r.name]) and is_settled(r)], key=whole, default=final)
-        return best if whole(best) < whole(final) - margin else final
+    def weighed(self, final: Refit, near: Sequence[Refit], margin: float) -> "Weighed":
+        """What all runs together say of ``final`` and of fits that are hardly worse on those that were fitted."""
+        fits = [final, *near] if near and self.space.held_out else []
+        judge = self.held_out(fits)
+        return Weighed({names_of(r): (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""
