@@ -53,9 +53,10 @@ def names_of(result: Refit) -> frozenset[str]:
 
 @dataclass(frozen=True)
 class Weighed:
-    """Fits by name with what unused runs say of each, over directions that they have in common; ``margin`` in chi-square from which one is less likely."""
+    """What all runs together say of fits, by the names of their effects: of each what unused ones say, over directions that all have in common;
+    ``margin`` in chi-square from which one is less likely."""
 
-    judged: Mapping[str, tuple[Refit, HeldOut]]
+    judged: Mapping[frozenset[str], tuple[Refit, HeldOut]]
     margin: float
 
     def whole(self, result: Refit) -> float:
@@ -124,9 +125,11 @@ class Judgement:
         """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, over other patterns."""
         return self.held_out([result]).judge(result) if self.space.held_out else None
 
-    def weighed(self, final: Refit, near: Sequence[Refit], margin: float) -> "Weighed":
+    def weighed(self, final: Refit, near: Sequence[Refit], margin: float) -> Weighed:
         """What all runs together say of ``final`` and of fits that are hardly worse on those that were fitted."""
-        fits = [final, *near] if near and self.space.held_out else []
+        if not near or not self.space.held_out:
+            return Weighed({}, margin)
+        fits = [final, *near]
         judge = self.held_out(fits)
         return Weighed({names_of(r): (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
 
