@@ -122,8 +122,9 @@ class HeldOutJudge:
         spread = self.directions.T @ self._sensitivities(rival)
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
+        surprise = unexplained + float(np.linalg.slogdet(expected)[1])
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
-                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after, unexplained + float(np.linalg.slogdet(expected)[1]))
+                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after, surprise)
 
     def tells(self, one: Refit, other: Refit) -> bool:
         """Whether these runs differ by more than noise between two fits."""
