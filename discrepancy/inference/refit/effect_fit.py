@@ -72,8 +72,9 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
         anew = _beginning(space, candidates, begins[0])
         found = min(found, jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
-    elif promised - found.chi2 > BENT * (space.base.chi2 - promised) + 1.0 and may_reach(found, least):
-        found = min(found, jointly(space, parameters, found.values, names, exact_every=1, least=least), key=lambda f: f.chi2)
+    elif promised - found.chi2 > max(BENT * (space.base.chi2 - promised), 1.0) and 2.0 * found.chi2 - promised < least:
+        # What the nuisances gained once they may gain again: a bent valley promises little at any one place.
+        found = min(found, jointly(space, parameters, found.values, names, exact_every=1), key=lambda f: f.chi2)
     if widely:
         found = _from_elsewhere(space, found, candidates, least)
     return _kept_if_better(space, found, own)
