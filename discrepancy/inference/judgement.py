@@ -69,9 +69,8 @@ class Weighed:
         return known and bool(against(self.judged[names_of(result)][1])) and self.whole(result) > self.whole(first) + self.margin
 
     def likeliest(self, final: Refit) -> Refit:
-        """``final``, or the plain fit that all runs together speak for where unused ones speak against ``final``."""
-        plain = [r for r, judged in self.judged.values() if not against(judged) and is_settled(r)]
-        best = min(plain, key=self.whole, default=final)
+        """``final``, or the plain fit that all runs together speak for where unused ones refute ``final``; they may not be explained by that either."""
+        best = min((r for r, _ in self.judged.values() if is_settled(r)), key=self.whole, default=final)
         return best if self.refuted(final, best) else final
 
 
