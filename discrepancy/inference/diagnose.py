@@ -175,7 +175,7 @@ class Diagnostician:
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
-        weighed = judgement.weighed(final, selection.little_worse(final, rivals), settings.margin)
+        weighed = judgement.weighed(final, selection.fitted_in_earnest(final, rivals), settings.margin)
         fits_best, final = final, weighed.likeliest(final)
         self.doing = f"looking for what could stand in place of {final.name}"
         if len(final.candidates) == 1:

@@ -306,11 +306,11 @@ class Selection:
             final = min(better, key=penalised)
         return final
 
-    def little_worse(self, final: Refit, rivals: Sequence[Refit]) -> list[Refit]:
-        """Effects whose fit in earnest, alone or in a member's place, may stand beside ``final``; ``rivals`` are the fits alone."""
+    def fitted_in_earnest(self, final: Refit, rivals: Sequence[Refit]) -> list[Refit]:
+        """Effects whose fits, alone or in a member's place, came near enough to ``final`` to be made in earnest; ``rivals`` are the fits alone."""
         others = rivals if len(final.candidates) == 1 else [r for c in final.candidates for r in self.in_place_of(final, c)]
-        near = [r for r in others if r.fit.chi2 < self.as_good(final) and all(c.part != BASE for c in r.candidates)]
-        return [r for r in near if r.name != final.name and frozenset(c.name for c in r.candidates) in self.refits.final_fits]
+        effects = [r for r in others if r.name != final.name and all(c.part != BASE for c in r.candidates)]
+        return [r for r in effects if frozenset(c.name for c in r.candidates) in self.refits.final_fits]
 
     def gives_way(self, final: Refit, member: Candidate, rival: Refit) -> bool:
         """Whether ``rival``, with another effect in place of ``member``, is plainly better; or as good, where the member ends at a bound or has a shape of
