@@ -24,7 +24,7 @@ from discrepancy.inference.screening.screen import Score, Screen, candidate_colu
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.screening.visible import Visible, visible
 from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
-from discrepancy.inference.telling import Teller
+from discrepancy.inference.telling import SAME_CHI2, Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, CHAIN, Candidate, Model
 from fmu_src.percent import percent
@@ -225,7 +225,9 @@ class Diagnostician:
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
         if fits_best is not final:
-            reason += f"; {fits_best.name} fits better by {chi_text(final.fit.chi2 - fits_best.fit.chi2)} of chi-square, but runs that were not used refute it"
+            better = final.fit.chi2 - fits_best.fit.chi2
+            how = f"better by {chi_text(better)} of chi-square" if better > SAME_CHI2 else "as well"
+            reason += f"; {fits_best.name} fits {how}, but runs that were not used refute it"
         if verdict in (ONE, SET) and open_ones:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:
