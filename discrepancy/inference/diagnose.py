@@ -24,7 +24,7 @@ from discrepancy.inference.screening.screen import Score, Screen, candidate_colu
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.screening.visible import Visible, visible
 from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
-from discrepancy.inference.telling import Teller
+from discrepancy.inference.telling import SAME_CHI2, Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, CHAIN, Candidate, Model
 from fmu_src.percent import percent
@@ -175,6 +175,9 @@ class Diagnostician:
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
+        weighed = judgement.weighed(final, selection.fitted_in_earnest(final, rivals), settings.margin)
+        fits_best, final = final, weighed.likeliest(final)
+        refuted = final is not fits_best
         final = self.refits.reaching(final)
         self.doing = f"looking for what could stand in place of {final.name}"
         if len(final.candidates) == 1:
@@ -189,16 +192,18 @@ class Diagnostician:
         if len(final.candidates) == 1:
             # Found beside another, it may be a better fit than it was alone.
             rivals = [final, *(r for r in rivals if r.candidates != final.candidates)]
-            members = confusable_set(rivals, widened, dof, settings.margin)
+            # What unused runs refute stands beside it no more, however well it fits the others.
+            left = [r for r in rivals if not weighed.refuted(r, final)]
+            members = confusable_set(left, widened, dof, settings.margin)
             if final not in members:
                 members.insert(0, final)
-            members += selection.adequate(rivals, members)
-            open_ones = unsettled(rivals, members, final, settings.margin)
+            members += selection.adequate(left, members)
+            open_ones = unsettled(left, members, final, settings.margin)
             members = [m if m is final else self.refits.reaching(m) for m in [*members, *open_ones]]
         else:
             members = [final]
             for c in final.candidates:
-                stand_ins = selection.stand_ins(final, c, widened, dof)
+                stand_ins = [r for r in selection.stand_ins(final, c, widened, dof) if not weighed.refuted(r, final)]
                 if stand_ins:
                     alternatives[c.name] = stand_ins
         self.report([*members, *rivals])
@@ -221,6 +226,10 @@ class Diagnostician:
             alternatives |= {final.name: others} if others else {}
             if len(members) - len(others) > 1:
                 reason += f"; which of {len(members) - len(others)} numbers it is this campaign cannot tell"
+        if refuted:
+            better = final.fit.chi2 - fits_best.fit.chi2
+            how = f"better by {chi_text(better)} of chi-square" if better > SAME_CHI2 else "as well"
+            reason += f"; {fits_best.name} fits {how}, but runs that were not used refute it"
         if verdict in (ONE, SET) and open_ones:
             reason += f"; with a value at a bound or one that this campaign says nothing about: {', '.join(r.name for r in open_ones)}"
         if verdict not in (UNKNOWN, INCOMPLETE) and alternatives:

@@ -1,6 +1,7 @@
 """Is it enough: what a fit leaves, what runs say that were not used, and by how much that widens intervals."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -10,6 +11,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
 from discrepancy.inference.misfit.localise import Localisation, Localiser
+from discrepancy.inference.refit.confusable import is_settled, penalised
 from discrepancy.inference.refit.refit import Refit, leave_condition_out
 
 # Of chi-square that unused runs gain of noise alone in one campaign in twenty.
@@ -43,6 +45,33 @@ def borne_out(p: float, judged: HeldOut | None, sure: float, level: float) -> bo
 def widening(over: bool, inflation: float) -> float:
     """Of intervals, for a misfit that is ``over`` the noise by this factor in chi-square; twice at most."""
     return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
+
+
+def names_of(result: Refit) -> frozenset[str]:
+    return frozenset(c.name for c in result.candidates)
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """What all runs together say of fits, by the names of their effects: of each what unused ones say, over directions that all have in common;
+    ``margin`` in chi-square from which one is less likely."""
+
+    judged: Mapping[frozenset[str], tuple[Refit, HeldOut]]
+    margin: float
+
+    def whole(self, result: Refit) -> float:
+        """Chi-square of all runs with the price of what is fitted, of those that were not used as well as the fit can know them."""
+        return penalised(result) + self.judged[names_of(result)][1].surprise
+
+    def refuted(self, result: Refit, first: Refit) -> bool:
+        """Whether unused runs speak against ``result``, and all runs together for ``first`` instead."""
+        known = names_of(result) in self.judged and names_of(first) in self.judged
+        return known and bool(against(self.judged[names_of(result)][1])) and self.whole(result) > self.whole(first) + self.margin
+
+    def likeliest(self, final: Refit) -> Refit:
+        """``final``, or the plain fit that all runs together speak for where unused ones refute ``final``; they may not be explained by that either."""
+        best = min((r for r, _ in self.judged.values() if is_settled(r)), key=self.whole, default=final)
+        return best if self.refuted(final, best) else final
 
 
 class Judgement:
@@ -81,7 +110,7 @@ class Judgement:
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""
-        key = frozenset(c.name for c in result.candidates)
+        key = names_of(result)
         if key not in self.inflations:
             over, _, _, inflation = self.leftover(result)
             self.inflations[key] = widening(over, inflation)
@@ -94,6 +123,14 @@ class Judgement:
     def alone(self, result: Refit) -> HeldOut | None:
         """What unused runs say of a fit, as they will when it is added to the model: rivals are compared in common, over other patterns."""
         return self.held_out([result]).judge(result) if self.space.held_out else None
+
+    def weighed(self, final: Refit, near: Sequence[Refit], margin: float) -> Weighed:
+        """What all runs together say of ``final`` and of fits that are hardly worse on those that were fitted."""
+        if not near or not self.space.held_out:
+            return Weighed({}, margin)
+        fits = [final, *near]
+        judge = self.held_out(fits)
+        return Weighed({names_of(r): (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""

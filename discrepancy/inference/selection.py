@@ -319,6 +319,12 @@ class Selection:
             final = min(better, key=penalised)
         return final
 
+    def fitted_in_earnest(self, final: Refit, rivals: Sequence[Refit]) -> list[Refit]:
+        """Effects whose fits, alone or in a member's place, came near enough to ``final`` to be made in earnest; ``rivals`` are the fits alone."""
+        others = rivals if len(final.candidates) == 1 else [r for c in final.candidates for r in self.in_place_of(final, c)]
+        effects = [r for r in others if r.name != final.name and all(c.part != BASE for c in r.candidates)]
+        return [r for r in effects if frozenset(c.name for c in r.candidates) in self.refits.final_fits]
+
     def gives_way(self, final: Refit, member: Candidate, rival: Refit) -> bool:
         """Whether ``rival``, with another effect in place of ``member``, is plainly better; or as good, where the member ends at a bound or has a shape of
         which nothing is known, so that it stands for a simpler one."""

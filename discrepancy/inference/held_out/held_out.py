@@ -31,6 +31,7 @@ class HeldOut:
     """Errors of one fit: ``error`` in noise units, ``rms`` by signal in its unit with the ``floor`` of noise, ``p`` of the misfit left.
 
     ``gain`` is what they gain in chi-square.  Not ``seen``: what is judged does nothing in these runs, so that they speak neither for nor against it.
+    ``surprise``: minus twice the logarithm of how likely they are by the fit, as well as it knows them; beside that of a rival over the same directions.
     """
 
     before: float
@@ -40,6 +41,7 @@ class HeldOut:
     kind: str
     seen: bool = True
     gain: float = 0.0
+    surprise: float = 0.0
 
 
 class HeldOutJudge:
@@ -120,8 +122,9 @@ class HeldOutJudge:
         spread = self.directions.T @ self._sensitivities(rival)
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         unexplained = float(known @ np.linalg.solve(expected, known))
+        surprise = unexplained + float(np.linalg.slogdet(expected)[1])
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
-                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after)
+                       self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after, surprise)
 
     def tells(self, one: Refit, other: Refit) -> bool:
         """Whether these runs differ by more than noise between two fits."""

@@ -41,6 +41,8 @@ ROUGH_ROUNDS, ROUNDS = 4, 8
 # A fit that is searched for, of which a further step promises more than this chi-square, takes sensitivities anew so often: a wear
 # coefficient multiplies what a law does, and the base fit's says little where the law has halved the wear.
 UNFINISHED, ANEW = 5.0, 3
+# Where the nuisances that follow gain more than this share of what was promised without them, the effect stands where frozen ones had put it.
+BENT = 0.05
 
 
 def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Sequence[Mapping[str, float]], widely: bool = False,
@@ -54,9 +56,9 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
     parameters, names = tuple(nuisances) + own, tuple(c.name for c in candidates)
     begins = [{p.name: float(np.clip(start.get(p.name, p.off), p.lower, p.upper)) for p in own} for start in starts]
     values, converged, columns = _search(frozen, candidates, begins, widely)
-    anew = _off(nuisances) | begins[0]
     if frozen.misled and not widely:
-        return _kept_if_better(space, jointly(space, parameters, anew, names, least=least), own)
+        anew = _beginning(space, candidates, begins[0])
+        return _kept_if_better(space, jointly(space, parameters, anew, names, exact_every=1, least=least), own)
     promised, residual = frozen.cost(values)
     full = {**frozen.nuisances_with(residual), **values}
     if total_cost(space, Box(parameters), full)[0] > space.base.chi2:
@@ -70,10 +72,25 @@ def fit_effects(space: Workspace, candidates: Sequence[Candidate], starts: Seque
         found = _finished(space, found, least)
     if found.chi2 - promised > MISLED * (space.base.chi2 - promised) + 1.0:
         # The base fit's nuisances had taken the effect's place, and are no place to start from.
+        anew = _beginning(space, candidates, begins[0])
         found = min(found, jointly(space, parameters, anew, names, least=least), key=lambda f: f.chi2)
+    elif promised - found.chi2 > max(BENT * (space.base.chi2 - promised), 1.0) and 2.0 * found.chi2 - promised < least:
+        # What the nuisances gained once they may gain again: a bent valley promises little at any one place.
+        found = min(found, jointly(space, parameters, found.values, names, exact_every=1), key=lambda f: f.chi2)
     if widely:
         found = _from_elsewhere(space, found, candidates, least)
     return _kept_if_better(space, found, own)
+
+
+def _beginning(space: Workspace, candidates: Sequence[Candidate], start: Mapping[str, float]) -> dict[str, float]:
+    """Where all parameters together begin: the nuisances off or at the base fit, the effects at ``start`` or no larger than they usually are, whichever
+    costs least.  An effect that feeds on itself runs away where a slope at the base model puts it."""
+    nuisances = space.model.nuisances
+    amplitudes = [p for c in candidates for p in c.amplitudes]
+    usual = {p.name: p.off + float(np.clip(start[p.name] - p.off, -p.scale, p.scale)) for p in amplitudes}
+    places = (_off(nuisances), {p.name: space.base.values[p.name] for p in nuisances})
+    box = Box((*nuisances, *(p for c in candidates for p in c.parameters)))
+    return min(({**place, **start, **own} for own in ({}, usual) for place in places), key=lambda values: total_cost(space, box, values)[0])
 
 
 def _off(parameters: Sequence[Parameter]) -> dict[str, float]:
