@@ -134,34 +134,25 @@ def step_beside(p, similar, i):
 
 
 @kernel
-def sweep_beside(plants, durations, errors, similar):
-    """Transmission error [rad] after each of the ``durations`` [s], to first order beside a similar run.
+def sweep_beside(plants, durations, torques, errors, similar):
+    """Transmission error [rad] after each of the ``durations`` [s], to first order beside a similar run; with the input held, under each of the output
+    ``torques`` [N m] instead, if there are any (not beside friction, whose springs remember).
 
     One Newton step from each equilibrium of that run (rows of ``similar``): a third of the cost of a new
-    equilibrium.  Contact forces stay those of the similar run.
+    equilibrium.  Contact forces stay those of the similar run.  One kernel for both: most of it is the plant's, which takes its time to compile.
     """
     p = plants[0]
-    for i in range(durations.shape[0]):
-        output_speed = turn_input(p, durations[i])
+    is_held = torques.shape[0] > 0
+    for i in range(similar.shape[0]):
+        if is_held:
+            p.load_torque = torques[i]
+        output_speed = turn_input(p, 0.0 if is_held else durations[i])
         if not step_beside(p, similar, i):
             return NO_EQUILIBRIUM
         publish(p, output_speed)
-        advance_effects(p, durations[i])
+        if not is_held:
+            advance_effects(p, durations[i])
         errors[i] = p.transmission_error
-    return 0
-
-
-@kernel
-def torque_sweep_beside(plants, torques, turning, similar):
-    """``torque_sweep`` to first order beside a similar run, see ``sweep_beside``; not for friction, whose springs remember."""
-    p = plants[0]
-    output_speed = turn_input(p, 1.0)
-    for i in range(torques.shape[0]):
-        p.load_torque = torques[i]
-        if not step_beside(p, similar, i):
-            return NO_EQUILIBRIUM
-        publish(p, output_speed)
-        turning[i] = -p.transmission_error
     return 0
 
 

@@ -52,6 +52,8 @@ PART = 1024
 # Amplitudes beside which a running reducer is what its way has made of it: those of effects with states (friction's springs remember only while the
 # input is held), and that with which cages lag behind.
 RUNNING_MEMORY = ["skid_share", *(p.variable.name for name, e in EFFECTS.items() if e.states and name != "stribeck_friction" for p in e.amplitudes())]
+# Of durations or torques.
+NONE = np.zeros(0)
 # A step on the spot takes the wear unit's contacts to angles that were set; one of no length only reads where they are, and FMUs refuse it [s].
 MOMENT = 1e-12
 
@@ -197,7 +199,7 @@ class Bench(Lives):
             def along(part: slice) -> None:
                 plants = self.new_plant(setting, values, float(passed[0]), cage, z=similar[part][0])
                 self.turn_on(plants, float(passed[part][0] - passed[0]))
-                status = coupled.sweep_beside(plants, self.durations(setting, passed[part]), errors[part], similar[part])
+                status = coupled.sweep_beside(plants, self.durations(setting, passed[part]), NONE, errors[part], similar[part])
                 self.check((status, 0), plants, self.templates[1])
 
             self.threads.map(along, parts(len(passed)) if self.forgets(setting, values) else [slice(None)])
@@ -339,10 +341,11 @@ class Bench(Lives):
         positions, relevant, before = positions_of(condition, self.held_angles), self.relevant(values, False), self.relevant(base, False)
 
         def beside(setting: Condition, angle: float, chosen: slice | Places, similar: Floats) -> Floats:
-            applied, turning = torques[chosen], np.zeros(len(similar))
+            applied, errors = torques[chosen], np.zeros(len(similar))
             plants = self.new_held(setting, values, angle, applied, similar[0])
-            self.check((coupled.torque_sweep_beside(plants, applied, turning, similar), 0), plants, self.templates[1])
-            return turning
+            self.check((coupled.sweep_beside(plants, NONE, applied, errors, similar), 0), plants, self.templates[1])
+            # The output turns in the torque's sense.
+            return -errors
 
         def whole(setting: Condition) -> Floats:
             def run() -> Floats:

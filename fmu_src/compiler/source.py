@@ -1,11 +1,17 @@
 """A kernel as the compiler sees it: the function's syntax tree and what its names mean."""
 
 import ast
-import inspect
-import textwrap
+import linecache
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
+
+
+@lru_cache(1024)
+def functions_in(text: str) -> dict[tuple[str, int], ast.FunctionDef]:
+    """Functions of a file by name and first line, that of the first decorator: read once for all kernels in it."""
+    found = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef))
+    return {(node.name, min([node.lineno, *(d.lineno for d in node.decorator_list)])): node for node in found}
 
 
 class Source:
@@ -29,12 +35,9 @@ class Source:
     @cached_property
     def tree(self) -> ast.FunctionDef:
         """The syntax tree of the function, with the file's line numbers."""
-        lines, first = inspect.getsourcelines(self.function)
-        tree = ast.parse(textwrap.dedent("".join(lines)))
-        ast.increment_lineno(tree, first - 1)
-        (function,) = tree.body
-        assert isinstance(function, ast.FunctionDef)
-        return function
+        linecache.checkcache(self.file)
+        text = "".join(linecache.getlines(self.file, self.function.__globals__))
+        return functions_in(text)[self.name, self.function.__code__.co_firstlineno]
 
     @property
     def local_names(self) -> tuple[str, ...]:
