@@ -8,7 +8,7 @@ import pytest
 from discrepancy.inference.base_fit.fit import Box
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.bent import exchange
-from discrepancy.inference.refit.effect_fit import total_cost
+from discrepancy.inference.refit.joint import total_cost
 from discrepancy.inference.refit.refit import estimates
 from discrepancy.inference.screening.screen import SMALL, TYPICAL, Block, Columns
 from discrepancy.inference.verdict import ONE

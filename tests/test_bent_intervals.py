@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.refit.effect_fit import jointly
 from discrepancy.inference.refit.in_earnest import in_earnest
+from discrepancy.inference.refit.joint import jointly
 from discrepancy.inference.refit.profile import profiles
 from discrepancy.inference.refit.reach import HALF, reach
 from discrepancy.inference.refit.refit import estimates, finished

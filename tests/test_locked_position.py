@@ -21,8 +21,8 @@ from discrepancy.inference.next_experiment import Experiment
 from discrepancy.inference.refit.confusable import PER_PARAMETER, penalised
 from discrepancy.inference.verdict import ONE, SEVERAL
 from discrepancy.model_file import load_model
-from discrepancy.prediction.bench import HELD_ANGLES
 from discrepancy.prediction.candidates import candidates
+from discrepancy.prediction.held import HELD_ANGLES
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.prediction.positions import departures, position_scores
 from discrepancy.problem import Candidate, Parameter, Record, is_loop, is_unplaced

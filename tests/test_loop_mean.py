@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from discrepancy.prediction.bench import HELD_ANGLES, QUARTER, SHORT_CYCLE, Bench
+from discrepancy.prediction.bench import QUARTER, Bench
 from discrepancy.prediction.conditions import at_rest
 from discrepancy.prediction.curves import signal
+from discrepancy.prediction.held import HELD_ANGLES
+from discrepancy.prediction.lives import SHORT_CYCLE
 from discrepancy.prediction.observe import coarse_lost_motion_change, lost_motion, lost_motion_at, middle_lines
 from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change
 from discrepancy.prediction.units import Condition

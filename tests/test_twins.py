@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from discrepancy.model_file import load_model
-from discrepancy.prediction import bench as benches
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cage_ripples import cage_ripples
 from discrepancy.prediction.fineness import Fineness
+from discrepancy.prediction.held import HELD_ANGLES
+from discrepancy.prediction.lives import SHORT_CYCLE
 from discrepancy.prediction.over_angle import OverAngle
 from discrepancy.prediction.twins import Twins, corners, places_of
 from discrepancy.prediction.units import Condition
@@ -76,7 +77,7 @@ def test_loops_repeat_over_the_temperature(bench, values, shared):
     cold, warm = (bench.held(c, values, WAY) for c in (COLD, WARM))
     assert np.array_equal(cold, warm) is shared
     assert (WARM in runs_of(bench, "held")) is not shared
-    own = bench.held_places(WARM, values, WAY, benches.HELD_ANGLES, benches.SHORT_CYCLE)[0].mean(axis=0)
+    own = bench.held_places(WARM, values, WAY, HELD_ANGLES, SHORT_CYCLE)[0].mean(axis=0)
     assert np.abs(own - warm).max() < 1e-6 * np.ptp(warm)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from scipy.special import chdtrc, fdtrc
 
+from discrepancy.inference.alone import WORTHWHILE, few_of_each
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
@@ -23,7 +24,7 @@ from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.screening.visible import Visible, visible
-from discrepancy.inference.selection import WORTHWHILE, Selection, few_of_each
+from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import SAME_CHI2, Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
 from discrepancy.problem import BASE, CHAIN, Candidate, Model

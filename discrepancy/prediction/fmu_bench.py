@@ -17,8 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from discrepancy.model_file import ModelFile, extended_reducer
-from discrepancy.prediction.bench import HELD_ANGLES, MOMENT, Bench, Starts, positions_of
+from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.held import HELD_ANGLES, positions_of
 from discrepancy.prediction.lives import SHORT_CYCLE, fresh, stretches
+from discrepancy.prediction.running import Starts
+from discrepancy.prediction.runs import MOMENT
 from discrepancy.prediction.units import TOLERANCE, Condition, whole_first, within_turn
 from fmu_src.arrays import Floats
 from fmu_src.faults import InputFault, RunFault

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from discrepancy.prediction.bench import Bench, Starts
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import Values, angle_zero, angles_of, condition_of, places_of_zero, zero_of
 from discrepancy.prediction.curves import LEVEL_OF_SLOPES, nodes_of_slopes, signal
+from discrepancy.prediction.running import Starts
 from discrepancy.prediction.stations import Stations, own_stations
 from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, angle_nodes, banded_nodes
 from discrepancy.prediction.units import Condition

@@ -3,8 +3,9 @@
 import numpy as np
 
 from discrepancy.effects.locked_position import COMPONENTS
-from discrepancy.prediction.bench import HELD_ANGLES, Bench
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import nodes_of
+from discrepancy.prediction.held import HELD_ANGLES
 from discrepancy.prediction.lives import SHORT_CYCLE
 from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.torque_way import way

@@ -12,7 +12,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.fit import Box, Fit
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.refit.effect_fit import jointly, total_cost
+from discrepancy.inference.refit.joint import jointly, total_cost
 from discrepancy.inference.screening.screen import TYPICAL, Columns, limits
 from discrepancy.problem import Candidate, Placing
 from fmu_src.arrays import Floats

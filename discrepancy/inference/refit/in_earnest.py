@@ -9,7 +9,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.curvature import by_secants
-from discrepancy.inference.refit.effect_fit import STILL, by_own_sensitivities, jointly, polish, still_promised, there, total_cost
+from discrepancy.inference.refit.joint import STILL, by_own_sensitivities, jointly, polish, still_promised, there, total_cost
 from discrepancy.problem import Candidate, near
 from fmu_src.arrays import Floats
 

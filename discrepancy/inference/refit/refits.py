@@ -9,8 +9,9 @@ import numpy as np
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
-from discrepancy.inference.refit.effect_fit import EXPLAINS, from_there, jointly, left_by, there
+from discrepancy.inference.refit.effect_fit import EXPLAINS
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
+from discrepancy.inference.refit.joint import from_there, jointly, left_by, there
 from discrepancy.inference.refit.reach import reach
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score

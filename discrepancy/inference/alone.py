@@ -1,0 +1,158 @@
+"""Which effects are fitted alone: what may win, and from where it is looked for."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+
+from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.judgement import Judgement
+from discrepancy.inference.outlook import IN_EARNEST, Outlook
+from discrepancy.inference.refit.bent import exchange, leaves_some
+from discrepancy.inference.refit.confusable import FORM, penalised, price
+from discrepancy.inference.refit.joint import may_reach
+from discrepancy.inference.refit.refit import Refit
+from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain
+from discrepancy.inference.verdict import Settings
+from discrepancy.problem import BASE, Candidate
+
+# What has a name and leads to a refit.
+Named = TypeVar("Named", Score, Refit)
+
+# Level of one effect alone from which a refit is worthwhile.
+WORTHWHILE = 0.05
+# So many of the best fits are looked for from other starts too.
+FOREMOST = 2
+# What rough predictions may add to a chi-square, of what is gained (a tenth of the change, that squared; a thousandth is usual), and what a
+# linear estimate may.
+ROUGH, LINEAR = 0.01, 0.02
+
+
+def few_of_each(scores: Sequence[Score]) -> list[Score]:
+    """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects.
+
+    Numbers of the base model are no variants of each other.
+    """
+    counts: dict[str, int] = {}
+    kept = []
+    for s in scores:
+        effect = s.name if s.name.startswith(BASE) else s.name.partition(".")[0]
+        counts[effect] = counts.get(effect, 0) + 1
+        if counts[effect] <= 2:
+            kept.append(s)
+    return kept
+
+
+class Alone:
+    """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
+
+    def __init__(self, candidates: Sequence[Candidate], columns: Columns, screening: Screen, refits: Refits, judgement: Judgement, settings: Settings,
+                 outlook: Outlook):  # fmt: skip
+        self.candidates, self.columns, self.screening = candidates, columns, screening
+        self.refits, self.judgement, self.settings, self.outlook = refits, judgement, settings, outlook
+        self.scores = {s.name: s for s in screening.scores}
+        self.space: Workspace = refits.space
+
+    def singles(self) -> list[Refit]:
+        """Refits of the candidates that may win alone."""
+        scores = [s for s in self.screening.scores if s.p_single < WORTHWHILE]
+        if not scores:
+            return []
+        top = scores[0].statistic
+        chosen = self.first_tried([s for s in scores if s.statistic >= 0.35 * top], top)
+        for s in sorted(scores, key=lambda s: s.p_single)[:2]:
+            if s not in chosen:
+                chosen.append(s)
+        fits = sorted(self.race("fitting alone", chosen), key=penalised)
+        # Of the best effect all forms that show as much: five springs look alike in a loop.
+        best = fits[0].candidates[0].name
+        enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
+        twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
+        fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
+        rates = {c.name: rate for k, c in enumerate(self.candidates) if c.name in self.scores and (rate := exchange(self.columns, k, c)) is not None}
+        # Of a large effect much is left until it is fitted in earnest.
+        if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
+            fits = self.along_valleys(fits, rates)
+        fits = self.widely(fits)
+        self.outlook.after(IN_EARNEST)
+        first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
+        if self.judgement.leftover(first[0])[0]:
+            # What is dear to look for.
+            more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())
+            rest = sorted([*more, *fits[1:]], key=penalised)
+            fits = [fits[0], *self.widely(rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates))]
+        near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
+        others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
+        return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
+
+    def widely(self, fits: list[Refit]) -> list[Refit]:
+        """``fits``, the foremost from other starts too; not those that leave as little as one that leaves no more than noise: a better one would only
+        follow the noise."""
+        if not fits:
+            return []
+        enough = -np.inf if leaves_some(fits[0].fit) else fits[0].fit.chi2 + self.settings.margin
+        chosen = [*fits[:1], *(f for f in fits[1:FOREMOST] if f.fit.chi2 > enough)]
+        found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(fits[0])), chosen)
+        return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
+
+    def along_valleys(self, fits: list[Refit], rates: Mapping[str, float]) -> list[Refit]:
+        """``fits``, those of effects two amplitudes of which do nearly the same (``rates``: see ``bent.exchange``) from wherever their valley goes on."""
+        found = self.tried("fitting along valleys", lambda s: self.refits.along_valley(s.name, rates[s.name]), [self.scores[name] for name in rates])
+        return sorted([*found, *(f for f in fits if f.candidates[0].name not in rates)], key=penalised)
+
+    def shown(self) -> list[Score]:
+        """Candidates that are known by orders alone, where the misfit has these."""
+        orders = {finding.feature.removeprefix("orders: ") for finding in self.judgement.localisation.findings}
+        return [s for s in self.screening.scores if orders & set(self.refits.by_name[s.name].families)]
+
+    def first_tried(self, scores: list[Score], top: float) -> list[Score]:
+        """Those that may win; where few numbers let many do as well to first order, all of these that can be, by their sizes."""
+        near = 4 * self.settings.margin + LINEAR * top
+        alike = [s for s in scores if s.statistic >= top - near]
+        if len(few_of_each(alike)) <= self.settings.shortlist:
+            return few_of_each(scores)[: self.settings.shortlist]
+        promise = {s.name: self.promise(s) for s in alike}
+        likely = [s for s in alike if promise[s.name] >= max(promise.values()) - near]
+        return few_of_each(sorted(likely, key=lambda s: -promise[s.name]))
+
+    def promise(self, score: Score) -> float:
+        """What an effect could gain within its bounds if it were linear, less the price of its parameters and of an implausible size."""
+        candidate = self.refits.by_name[score.name]
+        gain, sizes = bounded_gain(self.columns, self.space.base, score, candidate.amplitudes)
+        return gain - price(candidate, sizes)
+
+    def race(self, what: str, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
+        """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""
+
+        def one(least: float, score: Score) -> Refit:
+            return self.refits.fit([*names, score.name], own, [score], least)
+
+        ahead = self.tried(what, partial(one, np.inf), scores[:2])
+        if len(scores) < 3:
+            return ahead
+        best = min(ahead, key=penalised)
+        least = self.near(best) + penalised(best) - best.fit.chi2
+        return [*ahead, *self.tried(f"{what}, those further behind", partial(one, least), scores[2:])]
+
+    def near(self, best: Refit) -> float:
+        """Chi-square below which a rough fit may be as good as ``best``."""
+        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
+
+    def as_good(self, best: Refit) -> float:
+        """Chi-square below which a fit in earnest may stand beside ``best`` as an answer."""
+        return best.fit.chi2 + max(4 * self.settings.margin, self.little_behind(best))
+
+    def little_behind(self, best: Refit) -> float:
+        """Chi-square by which a fit may be worse than ``best`` where its law may only have a form slightly off."""
+        return self.settings.adequate_margin + FORM * max(best.gain, 0.0)
+
+    def as_reported(self, least: float, rival: Refit) -> Refit:
+        """A rival as it is reported, fitted in earnest if it may come below the chi-square ``least`` from where predictions in earnest leave it."""
+        seen = self.refits.seen(rival)
+        return self.refits.renewed(seen) if may_reach(seen.fit, least) else seen
+
+    def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
+        """``function`` of every score or refit, told as it goes."""
+        return self.space.threads.told(what, function, items, lambda item: item.name)
