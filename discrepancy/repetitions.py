@@ -15,10 +15,10 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import stdtr
 
 from discrepancy.problem import Record
 from discrepancy.rounding import jumps_of
+from discrepancy.scatter import EQUAL, LEVEL, Scatter, beyond_chance, scatter_of
 from fmu_src.arrays import Floats
 
 # Largest of n deviations from the median over their median (times 1.4826): what normal noise passes once in 20 and in 200 groups.
@@ -26,16 +26,12 @@ from fmu_src.arrays import Floats
 COUNTS = (3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 15.0, 20.0, 30.0, 50.0)
 ONCE_IN_20 = (22.0, 6.9, 7.9, 5.5, 5.8, 4.9, 4.6, 4.4, 4.3, 4.0, 3.8, 3.8)
 ONCE_IN_200 = (223.0, 22.7, 26.9, 12.8, 13.8, 9.7, 8.1, 7.3, 6.8, 5.8, 5.2, 4.8)
-# Repetitions that agree better than this share of their size are equal (assumed: no bench promises more).
-EQUAL = 0.02
 # The same of departures, which are those of all samples together, as a share of the span.
 EQUAL_SHAPE = 1e-3
 # A size so many times off the median is no noise of a bench (assumed) if deviations say once in 20, too.
 TWICE = 2.0
 # Off the nearest other by so many times, where the others agree within the factor before (assumed): also among three.
 THREEFOLD = 3.0
-# Of all repetitions of a condition, and all numbers of a run, together: how often one may be left out by chance.
-LEVEL = 0.01
 # Below so many samples a run is a list of numbers.
 SERIES = 8
 # Numbers below which runs may agree to the last digit by chance.
@@ -93,9 +89,9 @@ def outlying(records: Sequence[Record]) -> list[Outlying]:
     found = []
     for pairs in (False, True):
         repeated = [members for members in groups if (len(members) == 2 if pairs else len(members) > 2)]
-        usual = usual_deviations(repeated)
+        usual, scatter = usual_deviations(repeated), scatter_of_numbers(repeated)
         for members in repeated:
-            own = standing_out(members, usual)
+            own = standing_out(members, usual, scatter.get(members[0].quantity))
             # Where as many stand out as do not, it cannot be told who is right.
             few = not pairs and 2 * len(own) < len(members)
             found += [replace(one, left_out=few and not one.by_chance) for one in own]
@@ -136,7 +132,7 @@ def went_as_far(one: Record, other: Record) -> bool:
     return True
 
 
-def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tuple[float, int]]) -> list[Outlying]:
+def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tuple[float, int]], scatter: Scatter | None) -> list[Outlying]:
     """Of the repetitions of one condition those that stand out."""
     found: dict[str, Outlying] = {}
     sizes = sizes_of(members)
@@ -151,12 +147,14 @@ def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tupl
         for k, times in enumerate(far):
             rest = np.delete(own, k)
             r = members[k]
-            if times > 0.0 and r.name not in found:
-                found[r.name] = Outlying(
+            if times > 0.0 and (r.name not in found or found[r.name].by_chance):
+                one = Outlying(
                     r.name, r.quantity, tuple(sorted(r.tags.items())), r.condition, r.replicate, len(members), what, float(own[k]),
                     float(rest.min()), float(rest.max()), r.unit, float(times), other=members[1 - k].name if two else "",
-                    by_chance=not two and what not in (SPAN, MEAN, DEPARTURE) and not beyond_chance(own, k, *common, LEVEL / len(sizes)),
+                    by_chance=not two and what not in (SPAN, MEAN, DEPARTURE) and not beyond_chance(own, k, scatter, LEVEL / len(sizes)),
                 )  # fmt: skip
+                if r.name not in found or not one.by_chance:
+                    found[r.name] = one
         if two and found:
             break
     return list(found.values())
@@ -244,6 +242,14 @@ def usual_deviations(repeated: Sequence[Sequence[Record]]) -> dict[tuple[str, st
     return {key: (1.4826 * float(np.median(v)), len(v)) for key, v in shares.items()}
 
 
+def scatter_of_numbers(repeated: Sequence[Sequence[Record]]) -> dict[str, Scatter]:
+    """By quantity, of all conditions and places."""
+    numbers: dict[str, list[Floats]] = defaultdict(list)
+    for members in repeated:
+        numbers[members[0].quantity] += [sizes for what, sizes in sizes_of(members).items() if what not in (SPAN, MEAN, DEPARTURE)]
+    return {quantity: scatter_of(groups) for quantity, groups in numbers.items() if groups}
+
+
 def least_of(members: Sequence[Record], what: str, sizes: Mapping[str, Floats]) -> float:
     """Within so much of each other sizes agree, whatever the others do: of what their noise makes; of means also what runs span, for a zero may jump."""
     noise = float(np.median([jumps_of(values[np.isfinite(values)]) for values in (np.asarray(r.values, float) for r in members)]))
@@ -276,24 +282,6 @@ def distances(sizes: Floats, common: float, count: int, least: float = 0.0) -> F
         apart = np.array([far_from_all(sizes, k) for k in range(len(sizes))])
         stands_out |= apart & (times > rarely) if known > len(sizes) else apart
     return np.where(stands_out & (away > least), times, 0.0)
-
-
-def beyond_chance(sizes: Floats, k: int, common: float, count: int, level: float = LEVEL) -> bool:
-    """Whether one of several numbers is further from the others than their scatter makes it: by Student's law, of the numbers and, of positive ones, of their
-    logarithms; or than what ``common`` scatter of other conditions makes."""
-    middle = float(np.median(sizes))
-    pooled = max(common, EQUAL) * abs(middle)
-    if count > len(sizes) and 1.4826 * float(np.median(np.abs(sizes - middle))) <= USUAL * pooled:
-        return bool(abs(sizes[k] - middle) > float(np.interp(float(count), COUNTS, ONCE_IN_200)) * pooled)
-    return all(chance_of(scale, k) < level for scale in ((sizes, np.log(sizes)) if np.all(sizes > 0.0) else (sizes,)))
-
-
-def chance_of(sizes: Floats, k: int) -> float:
-    """How often any of so many normal numbers is as far from the mean of the others as this one, by what these differ by."""
-    rest = np.delete(sizes, k)
-    spread = float(np.std(rest, ddof=1)) * np.sqrt(1.0 + 1.0 / len(rest))
-    times = abs(float(sizes[k] - rest.mean())) / max(spread, 1e-300)
-    return float(min(1.0, 2.0 * len(sizes) * stdtr(len(rest) - 1, -times)))
 
 
 def departures(sizes: Floats, span: float, common: float, count: int) -> Floats:

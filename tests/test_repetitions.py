@@ -62,6 +62,21 @@ def test_a_number_is_left_out_beyond_what_chance_makes_of_such_scatter():
         assert np.mean([any(o.left_out for o in outlying(numbers(g))) for g in groups]) < 0.015
 
 
+def depths(rng, depth, condition, noise=0.045):
+    """Three inspections of three hours, of a surface worn so deep [um]; an instrument's noise has tails."""
+    return [Record(f"{condition}{k}", "wear_depth", "m", condition, k + 1, 1e-6 * (depth * np.array([0.3, 0.6, 1.0]) + noise * rng.standard_t(5, 3)),
+                   {"hours": np.array([1.0, 2.0, 3.0])}, {}, tags={"surface": condition}) for k in range(3)]  # fmt: skip
+
+
+def test_small_numbers_scatter_as_large_ones():
+    """Of shallow wear two inspections agree to a hundredth of their noise now and then, and the third, 2 times its noise off, was left out."""
+    rng = np.random.default_rng(4)
+    campaigns = [[r for k in range(8) for r in depths(rng, 0.02 * 2.0**k, f"s{k}")] for _ in range(100)]
+    assert np.mean([any(o.left_out for o in outlying(records)) for records in campaigns]) <= 0.06
+    wrong = [replace(r, values=4.0 * r.values) if r.name == "s71" else r for r in campaigns[0]]
+    assert [(o.run, o.left_out) for o in outlying(wrong) if o.left_out] == [("s71", True)]
+
+
 def test_of_two_that_are_at_odds_nobody_knows_which_is_wrong():
     """Both count, and it is said; an even pair, or one within what is stated of its noise, is none."""
     runs = loops((14.0, 111.0))
