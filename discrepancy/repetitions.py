@@ -18,7 +18,7 @@ import numpy as np
 
 from discrepancy.problem import Record
 from discrepancy.rounding import jumps_of
-from discrepancy.scatter import EQUAL, LEVEL, Scatter, beyond_chance, scatter_of
+from discrepancy.scatter import EQUAL, LEVEL, Scatter, beyond_chance, is_usual, scatter_of
 from fmu_src.arrays import Floats
 
 # Largest of n deviations from the median over their median (times 1.4826): what normal noise passes once in 20 and in 200 groups.
@@ -144,6 +144,8 @@ def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tupl
             far = np.zeros(2) if two else departures(own, float(np.median(sizes[SPAN])), *common)
         else:
             far = at_odds(own, *common, least) if two else distances(own, *common, least)
+            if what not in (SPAN, MEAN):
+                far = np.where([not two and is_usual(own, k, scatter) for k in range(len(own))], 0.0, far)
         for k, times in enumerate(far):
             rest = np.delete(own, k)
             r = members[k]

@@ -12,8 +12,9 @@ from fmu_src.arrays import Floats
 EQUAL = 0.02
 # Of all repetitions of a condition, and all numbers of a run, together: how often one may be further off by chance.
 LEVEL = 0.01
-# Within so many times what numbers of its quantity usually scatter one is no other kind (assumed: noise has tails); groups that tell of it.
-WITHIN, TELLING = 8.0, 4
+# Within so many times what numbers of its quantity usually scatter one is no other kind (assumed: noise has tails), and within so many nothing to be said
+# of; groups that tell of it.
+WITHIN, USUALLY, TELLING = 8.0, 4.0, 4
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,12 @@ def scatter_of(groups: Sequence[Floats]) -> Scatter:
     small = np.concatenate([far for middle, far in zip(middles, away) if middle <= half])
     large = np.concatenate([far / (middle or 1.0) for middle, far in zip(middles, away) if middle >= half])
     return Scatter(1.4826 * float(np.median(small)), max(1.4826 * float(np.median(large)), EQUAL), len(groups))
+
+
+def is_usual(sizes: Floats, k: int, scatter: Scatter | None) -> bool:
+    """Whether one of several numbers is no further from the others than numbers of its quantity are now and then, as far as that is known."""
+    middle = float(np.median(sizes))
+    return scatter is not None and scatter.groups >= TELLING and bool(abs(sizes[k] - middle) <= USUALLY * scatter.of(middle))
 
 
 def beyond_chance(sizes: Floats, k: int, scatter: Scatter | None, level: float = LEVEL) -> bool:
