@@ -45,7 +45,7 @@ STATED = 3.0
 
 # Axes along which a run may go further than another, and the share of the furthest by which they still go as far (assumed).
 REACHING, AS_FAR = {"angle", "torque", "hours", "order", "depth_angle", "speed", "load"}, 0.1
-SPAN, MEAN, DEPARTURE = "span", "mean", "departure"
+SPAN, MEAN, DEPARTURE = OF_SERIES = "span", "mean", "departure"
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tupl
             far = np.zeros(2) if two else departures(own, float(np.median(sizes[SPAN])), *common)
         else:
             far = at_odds(own, *common, least) if two else distances(own, *common, least)
-            if what not in (SPAN, MEAN):
+            if what not in OF_SERIES:
                 far = np.where([not two and is_usual(own, k, scatter) for k in range(len(own))], 0.0, far)
         for k, times in enumerate(far):
             rest = np.delete(own, k)
@@ -153,7 +153,7 @@ def standing_out(members: Sequence[Record], usual: Mapping[tuple[str, str], tupl
                 one = Outlying(
                     r.name, r.quantity, tuple(sorted(r.tags.items())), r.condition, r.replicate, len(members), what, float(own[k]),
                     float(rest.min()), float(rest.max()), r.unit, float(times), other=members[1 - k].name if two else "",
-                    by_chance=not two and what not in (SPAN, MEAN, DEPARTURE) and not beyond_chance(own, k, scatter, LEVEL / len(sizes)),
+                    by_chance=not two and what not in OF_SERIES and not beyond_chance(own, k, scatter, LEVEL / len(sizes)),
                 )  # fmt: skip
                 if r.name not in found or not one.by_chance:
                     found[r.name] = one
@@ -244,12 +244,12 @@ def usual_deviations(repeated: Sequence[Sequence[Record]]) -> dict[tuple[str, st
     return {key: (1.4826 * float(np.median(v)), len(v)) for key, v in shares.items()}
 
 
-def scatter_of_numbers(repeated: Sequence[Sequence[Record]]) -> dict[str, Scatter]:
+def scatter_of_numbers(repeated: Sequence[Sequence[Record]]) -> dict[str, Scatter | None]:
     """By quantity, of all conditions and places."""
     numbers: dict[str, list[Floats]] = defaultdict(list)
     for members in repeated:
-        numbers[members[0].quantity] += [sizes for what, sizes in sizes_of(members).items() if what not in (SPAN, MEAN, DEPARTURE)]
-    return {quantity: scatter_of(groups) for quantity, groups in numbers.items() if groups}
+        numbers[members[0].quantity] += [sizes for what, sizes in sizes_of(members).items() if what not in OF_SERIES]
+    return {quantity: scatter_of(groups) for quantity, groups in numbers.items()}
 
 
 def least_of(members: Sequence[Record], what: str, sizes: Mapping[str, Floats]) -> float:

@@ -19,39 +19,40 @@ WITHIN, USUALLY, TELLING = 8.0, 4.0, 4
 
 @dataclass(frozen=True)
 class Scatter:
-    """What numbers of a quantity usually deviate by from the median of their repetitions: ``floor`` [SI] of small ones, ``share`` of large ones; known
-    from so many ``groups``."""
+    """What numbers of a quantity usually deviate by from the median of their repetitions: ``floor`` [SI] of small ones, ``share`` of large ones."""
 
     floor: float
     share: float
-    groups: int
 
     def of(self, middle: float) -> float:
         return float(np.hypot(self.floor, self.share * middle))
 
 
-def scatter_of(groups: Sequence[Floats]) -> Scatter:
-    """Of the numbers (n,) of several groups: an instrument's noise does not shrink with what it measures, and its gain makes large numbers scatter more."""
+def scatter_of(groups: Sequence[Floats]) -> Scatter | None:
+    """Of the numbers (n,) of several groups, None of too few: an instrument's noise does not shrink with what it measures, and its gain makes large numbers
+    scatter more."""
+    if len(groups) < TELLING:
+        return None
     middles = np.abs([float(np.median(sizes)) for sizes in groups])
     # Of an odd number one is the median itself, which deviates from nothing.
     away = [np.sort(np.abs(sizes - np.median(sizes)))[len(sizes) % 2 :] for sizes in groups]
     half = float(np.median(middles))
     small = np.concatenate([far for middle, far in zip(middles, away) if middle <= half])
     large = np.concatenate([far / (middle or 1.0) for middle, far in zip(middles, away) if middle >= half])
-    return Scatter(1.4826 * float(np.median(small)), max(1.4826 * float(np.median(large)), EQUAL), len(groups))
+    return Scatter(1.4826 * float(np.median(small)), max(1.4826 * float(np.median(large)), EQUAL))
 
 
 def is_usual(sizes: Floats, k: int, scatter: Scatter | None) -> bool:
     """Whether one of several numbers is no further from the others than numbers of its quantity are now and then, as far as that is known."""
     middle = float(np.median(sizes))
-    return scatter is not None and scatter.groups >= TELLING and bool(abs(sizes[k] - middle) <= USUALLY * scatter.of(middle))
+    return scatter is not None and bool(abs(sizes[k] - middle) <= USUALLY * scatter.of(middle))
 
 
 def beyond_chance(sizes: Floats, k: int, scatter: Scatter | None, level: float = LEVEL) -> bool:
     """Whether one of several numbers is further from the others than chance makes it: than others of its quantity usually scatter, or, where hardly any tell,
     by Student's law, of the numbers and, of positive ones, of their logarithms."""
     middle = float(np.median(sizes))
-    if scatter is not None and scatter.groups >= TELLING:
+    if scatter is not None:
         return bool(abs(sizes[k] - middle) > WITHIN * scatter.of(middle))
     return all(chance_of(scale, k) < level for scale in ((sizes, np.log(sizes)) if np.all(sizes > 0.0) else (sizes,)))
 

@@ -78,12 +78,13 @@ class Share(Generic[Item, Result]):
             self.left -= place is not None
             return place
 
-    def do(self, context: Context | None = None) -> None:
-        """Items until none is left, each in a copy of the ``context`` if there is one."""
+    def do(self, context: Context) -> None:
+        """Items until none is left, each in a copy of the ``context``."""
         while (place := self.take()) is not None:
             self.one(place, context)
 
     def one(self, place: int, context: Context | None = None) -> None:
+        """The item of a place, in a copy of the ``context`` if there is one."""
         try:
             item = self.work[place]
             self.results[place] = context.copy().run(self.function, item) if context else self.function(item)
@@ -209,7 +210,7 @@ class Threads:
             raise Stopped
 
 
-def waited_for(future: Future[object]) -> object:
+def made_elsewhere(future: Future[object]) -> object:
     """What another thread makes; who waits for it leaves room for a third."""
     threads: Threads | None = getattr(HERE, "threads", None)
     if threads is None:
@@ -273,7 +274,7 @@ class Once:
                 future.set_exception(problem)
                 raise
         try:
-            return future.result() if own or future.done() else waited_for(future)  # type: ignore[return-value]
+            return future.result() if own or future.done() else made_elsewhere(future)  # type: ignore[return-value]
         except Stopped:
             if own:
                 raise

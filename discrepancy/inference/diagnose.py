@@ -216,7 +216,7 @@ class Diagnostician:
         if unproved:
             over = True
             text["held_out"] = {"error": judged.after, "p": judged.p_after} if judged else {}
-        judgement.inflations.update((frozenset(c.name for c in m.candidates), widening(over, inflation)) for m in members)
+        judgement.inflations.update((m.key, widening(over, inflation)) for m in members)
         one_sensor = all(c.part == CHAIN for c in final.candidates) and len({c.signals for c in final.candidates}) == 1
         named = sum(c.part != BASE for c in final.candidates)
         verdict, reason = decide(True, by_place, named, len(members) if not alternatives else 1, captured, over, settings, one_sensor, unproved)
@@ -301,7 +301,7 @@ class Diagnostician:
         done = ["base fit"] + ([self.tested] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
         reason = f"stopped while {self.doing}; done: {', '.join(done)}"
         if fits:
-            is_final = frozenset(c.name for c in fits[0].candidates) in self.refits.final_fits
+            is_final = fits[0].key in self.refits.final_fits
             reason += f"; best so far: {fits[0].name}" + ("" if is_final else ", fitted roughly: its numbers may move by more than their intervals")
         captured = 0.0
         text: dict[str, Any] = {}

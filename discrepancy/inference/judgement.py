@@ -47,10 +47,6 @@ def widening(over: bool, inflation: float) -> float:
     return float(np.sqrt(min(inflation, 4.0))) if over else 1.0
 
 
-def names_of(result: Refit) -> frozenset[str]:
-    return frozenset(c.name for c in result.candidates)
-
-
 @dataclass(frozen=True)
 class Weighed:
     """What all runs together say of fits, by the names of their effects: of each what unused ones say, over directions that all have in common;
@@ -61,12 +57,12 @@ class Weighed:
 
     def whole(self, result: Refit) -> float:
         """Chi-square of all runs with the price of what is fitted, of those that were not used as well as the fit can know them."""
-        return penalised(result) + self.judged[names_of(result)][1].surprise
+        return penalised(result) + self.judged[result.key][1].surprise
 
     def refuted(self, result: Refit, first: Refit) -> bool:
         """Whether unused runs speak against ``result``, and all runs together for ``first`` instead."""
-        known = names_of(result) in self.judged and names_of(first) in self.judged
-        return known and bool(against(self.judged[names_of(result)][1])) and self.whole(result) > self.whole(first) + self.margin
+        known = result.key in self.judged and first.key in self.judged
+        return known and bool(against(self.judged[result.key][1])) and self.whole(result) > self.whole(first) + self.margin
 
     def likeliest(self, final: Refit) -> Refit:
         """``final``, or the plain fit that all runs together speak for where unused ones refute ``final``; they may not be explained by that either."""
@@ -110,7 +106,7 @@ class Judgement:
 
     def inflation(self, result: Refit) -> float:
         """By how much the intervals of ``result`` widen for a misfit that it leaves."""
-        key = names_of(result)
+        key = result.key
         if key not in self.inflations:
             over, _, _, inflation = self.leftover(result)
             self.inflations[key] = widening(over, inflation)
@@ -130,7 +126,7 @@ class Judgement:
             return Weighed({}, margin)
         fits = [final, *near]
         judge = self.held_out(fits)
-        return Weighed({names_of(r): (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
+        return Weighed({r.key: (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""

@@ -184,7 +184,7 @@ class Selection(Alone):
         """Effects whose fits, alone or in a member's place, came near enough to ``final`` to be made in earnest; ``rivals`` are the fits alone."""
         others = rivals if len(final.candidates) == 1 else [r for c in final.candidates for r in self.in_place_of(final, c)]
         effects = [r for r in others if r.name != final.name and all(c.part != BASE for c in r.candidates)]
-        return [r for r in effects if frozenset(c.name for c in r.candidates) in self.refits.final_fits]
+        return [r for r in effects if r.key in self.refits.final_fits]
 
     def gives_way(self, final: Refit, member: Candidate, rival: Refit) -> bool:
         """Whether ``rival``, with another effect in place of ``member``, is plainly better; or as good, where the member ends at a bound or has a shape of
@@ -196,7 +196,7 @@ class Selection(Alone):
 
     def in_place_of(self, final: Refit, member: Candidate) -> list[Refit]:
         """Joint fits with other effects in place of ``member``; those that are near are fitted in earnest like ``final``."""
-        key = frozenset(c.name for c in final.candidates), member.name
+        key = final.key, member.name
         if key not in self.in_place:
             self.in_place[key] = self.replacements(final, member)
         return self.in_place[key]

@@ -26,7 +26,7 @@ class Held(Runs):
 
     def remembers(self, values: Mapping[str, float]) -> bool:
         """Whether a held output's place depends on the way to it: friction's springs, a seat that slips."""
-        return any(values.get(name, self.starts[0][name]) != 0.0 for name in MEMORY)
+        return self.has(MEMORY, values)
 
     def held(self, condition: Condition, values: Mapping[str, float], torques: Floats, positions: int = HELD_ANGLES) -> Floats:
         """Turning [rad] of the output under torques [N m] applied in order, input held; mean over crank positions, or at the condition's one."""

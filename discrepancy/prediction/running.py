@@ -30,7 +30,7 @@ class Running(Runs):
 
     def forgets(self, condition: Condition, values: Mapping[str, float]) -> bool:
         """Whether what a running bench shows at an angle does not depend on the way there."""
-        return condition.hours == 0.0 and not any(values.get(name, self.starts[0][name]) != 0.0 for name in RUNNING_MEMORY)
+        return condition.hours == 0.0 and not self.has(RUNNING_MEMORY, values)
 
     def running(self, condition: Condition, values: Mapping[str, float], angles: Floats, cage: float = 0.0) -> Floats:
         """What a running bench shows at output angles [rad]; columns as coupled.COLUMNS.
@@ -161,7 +161,7 @@ class Running(Runs):
     def mean_run(self, condition: Condition, values: Mapping[str, float], positions: int) -> Floats:
         turn = 2.0 * math.pi / self.reducer.topology.lobes
         angles = condition.direction * np.linspace(0.0, turn, positions, endpoint=False)
-        if values.get("thermal_resistance", self.starts[0]["thermal_resistance"]) > 0.0:
+        if self.has(["thermal_resistance"], values):
             # A second pass: what depends on the losses of the first has settled.
             angles = np.concatenate([angles, angles + condition.direction * turn])
         found: Floats = self.running(condition, values, angles)[-positions:].mean(axis=0)

@@ -1,6 +1,6 @@
 """Runs of both units on a bench: from which equilibria one starts, and in which parts it is computed."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -26,6 +26,10 @@ class Runs(Lives):
 
     twins: Twins
     threads: Threads
+
+    def has(self, names: Iterable[str], values: Mapping[str, float]) -> bool:
+        """Whether one of the plant's parameters that are off at 0 is on."""
+        return any(values.get(name, self.starts[0][name]) != 0.0 for name in names)
 
     def beside(self, key: tuple[Hashable, ...], base: Callable[[], tuple[Floats, Floats]], ways: Sequence[Floats] = ()) -> Floats:
         """Equilibria where the run of ``key`` (kind, condition, relevant values, way, ...) starts: those of one whose values are said to be near, or

@@ -18,7 +18,7 @@ from fmu_src.arrays import Floats
 
 # An interval's half width in standard deviations; the chi-square at its end is the square of that.
 HALF = 1.96
-# Of chi-square: by so much a place on the way is a better one, where the fit starts anew.
+# Of chi-square: by so much a fit from another start, or a place on the way, is another optimum, where the fit starts anew.
 BETTER = 1.0
 # In standard deviations: beyond what lies so high nobody looks for a lower place.
 HUMP = 4.5

@@ -70,6 +70,11 @@ class Refit:
         return " + ".join(c.name for c in self.candidates)
 
     @property
+    def key(self) -> frozenset[str]:
+        """The names of its effects, in whatever order they came."""
+        return frozenset(c.name for c in self.candidates)
+
+    @property
     def own(self) -> list[Parameter]:
         return [p for c in self.candidates for p in c.parameters]
 

@@ -12,15 +12,13 @@ from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
 from discrepancy.inference.refit.joint import from_there, jointly, left_by, there
-from discrepancy.inference.refit.reach import reach
+from discrepancy.inference.refit.reach import BETTER, reach
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
 from discrepancy.problem import Candidate, Placing
 
 # Chi-squares of two starts that show the same, one over the other less 1.
 ALIKE = 1e-6
-# Of chi-square: by so much a fit from another start is another optimum.
-BETTER = 1.0
 # Chi-square by which another zero of angles is surely the right one.
 SURELY = 25.0
 # Chi-square by sample of a fit that may leave something.
@@ -97,7 +95,7 @@ class Refits:
 
     def widened(self, result: Refit, least: float = np.inf) -> Refit:
         """The fit from other starts too, if one of them is better: for those that may be named."""
-        key, names = frozenset(c.name for c in result.candidates), [c.name for c in result.candidates]
+        key, names = result.key, [c.name for c in result.candidates]
         if key not in self.widely and key not in self.final_fits:
             self.widely.add(key)
             with self.space.predictions.roughly():
@@ -122,7 +120,7 @@ class Refits:
         """A fit that is named, with the ends of its intervals where the valley of two amplitudes ends; from a better place, where one lies on the way."""
         if result.stretch:
             return result
-        key = frozenset(c.name for c in result.candidates)
+        key = result.key
         found = reach(self.space, result)
         for _ in range(MOST_WALKS):
             if found.better is None:
@@ -152,7 +150,7 @@ class Refits:
     def placed_as(self, alone: Refit, joint: Refit) -> Refit:
         """The fit of some effects of ``joint`` with all that is placed beside effects where it stands beside all of these, if it is better there: a further
         effect may have gained by other places alone."""
-        model, predictions, key = self.space.model, self.space.predictions, frozenset(c.name for c in alone.candidates)
+        model, predictions, key = self.space.model, self.space.predictions, alone.key
         if not isinstance(model, Placing) or not model.unplaced():
             return alone
         before, there = (model.places(predictions.active(r.fit.values)) for r in (alone, joint))
@@ -171,7 +169,7 @@ class Refits:
 
     def renewed(self, result: Refit) -> Refit:
         """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
-        key = frozenset(c.name for c in result.candidates)
+        key = result.key
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         roughly, result = result.fit.chi2, self.at_its_zero(result)
@@ -240,7 +238,7 @@ class Refits:
 
     def seen(self, result: Refit) -> Refit:
         """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
-        key = frozenset(c.name for c in result.candidates)
+        key = result.key
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         self.settle(key, result)
@@ -262,4 +260,4 @@ class Refits:
 
     def gained_in_earnest(self, result: Refit) -> float:
         """By how much rough predictions have made a fit look worse than it is; others may look as much too bad."""
-        return self.gained.get(frozenset(c.name for c in result.candidates), 0.0)
+        return self.gained.get(result.key, 0.0)
