@@ -203,7 +203,7 @@ def mesh_in_motion_loop(records: np.ndarray, count: int) -> None:
     r = records[0]
     for _ in range(count):
         for d in range(r.mesh_force.shape[0]):
-            mesh_contacts(r, d, r.q[3 * r.mesh_force.shape[0]], 0.0, RATE)
+            mesh_contacts(r, d, r.q[3 * r.mesh_force.shape[0]], 0.0, RATE, False)
 
 
 @kernel
@@ -241,7 +241,7 @@ def mesh_loop(records: np.ndarray, count: int) -> None:
     lobes = r.lobe_pitch_error.shape[1]
     for _ in range(count):
         for d in range(r.mesh_force.shape[0]):
-            mesh_contacts(r, d, r.ideal_output, -lobes * r.ideal_output + disc_offset(r, d), 0.0)
+            mesh_contacts(r, d, r.ideal_output, -lobes * r.ideal_output + disc_offset(r, d), 0.0, True)
 
 
 @kernel

@@ -44,13 +44,28 @@ def temporary(prefix: str) -> Path:
 
 def usable(place: Path) -> bool:
     try:
-        place.mkdir(exist_ok=True, mode=0o700)
-        require_private(place)
-        remove_unused(place)
+        keep_in(place)
     except OSError as problem:
         print(f"rvwear: {problem}; nothing is kept there", file=sys.stderr)
         return False
     return True
+
+
+def own_folder(place: Path) -> Path | None:
+    """A folder elsewhere that is kept like one of the cache; None where it is no place of one's own."""
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        keep_in(place)
+    except OSError:
+        return None
+    return place
+
+
+def keep_in(place: Path) -> None:
+    """Make a folder one's own; OSError where it is not."""
+    place.mkdir(exist_ok=True, mode=0o700)
+    require_private(place)
+    remove_unused(place)
 
 
 def require_private(place: Path) -> None:

@@ -58,3 +58,9 @@ def entry_point(function: Callable[..., Any]) -> Any:
     The entry points of one module (``initialise`` and ``step`` of a unit) are compiled together.
     """
     return function if PLAIN else Kernel(function, is_entry=True)
+
+
+def plain(kernel: Any) -> Callable[..., Any]:
+    """A kernel's Python function: of a few numbers it is done before compiled code is called."""
+    function: Callable[..., Any] = getattr(kernel, "__wrapped__", kernel)
+    return function

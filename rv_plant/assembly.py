@@ -173,21 +173,27 @@ def add_soft_crank(r, disc, carrier, crank):
 def assemble(r, ideal_output, cage_angle, load_torque):
     """Residual (gradient of the potential) and tangent at r.z; fills all contact forces."""
     keep_place(r)
-    add_all(r, ideal_output, cage_angle, load_torque, False)
+    add_all(r, ideal_output, cage_angle, load_torque, False, True)
+
+
+@kernel
+def assemble_once(r, ideal_output, cage_angle, load_torque):
+    """The same where nothing goes on from here."""
+    add_all(r, ideal_output, cage_angle, load_torque, False, False)
 
 
 @kernel
 def assemble_beside(r, ideal_output, cage_angle, load_torque):
     """The same beside the last ``assemble`` of this position; disc and pins are carried on where that is near enough."""
     if is_near(r):
-        add_all(r, ideal_output, cage_angle, load_torque, True)
+        add_all(r, ideal_output, cage_angle, load_torque, True, False)
     else:
         assemble(r, ideal_output, cage_angle, load_torque)
 
 
 @kernel
-def add_all(r, ideal_output, cage_angle, load_torque, near):
-    """All contacts, load and supports; ``near``: disc and pins by what is kept of them, rollers by their forces then."""
+def add_all(r, ideal_output, cage_angle, load_torque, near, kept):
+    """All contacts, load and supports; ``near``: disc and pins by what is kept of them, rollers by their forces then; ``kept``: as ``mesh_contacts``."""
     discs, cranks = r.roller_force.shape[:2]
     clear(r)
     for c in range(cranks):
@@ -199,7 +205,7 @@ def add_all(r, ideal_output, cage_angle, load_torque, near):
         if near:
             near_contacts(r, d, axes)
         else:
-            mesh_contacts(r, d, ideal_output, axes, 0.0)
+            mesh_contacts(r, d, ideal_output, axes, 0.0, kept)
         for c in range(cranks):
             bearing_contacts(r, d, c, ideal_output, cage_angle, side, near)
         if has_output_pins(r):

@@ -274,7 +274,7 @@ def assemble_motion(r, rate_weight):
         z[3 * d] = q[3 * d] - r.eccentricity * math.cos(eccentric)
         z[3 * d + 1] = q[3 * d + 1] - r.eccentricity * math.sin(eccentric)
         z[3 * d + 2] = q[3 * d + 2] - q[carrier]
-        mesh_contacts(r, d, ideal, 0.0, rate_weight)
+        mesh_contacts(r, d, ideal, 0.0, rate_weight, False)
         for c in range(cranks):
             bearing_in_motion(r, d, c, cage_speed, rate_weight)
     for c in range(cranks):

@@ -99,13 +99,13 @@ def ring_coordinate(r):
 
 
 @kernel
-def mesh_contacts(r, d, ideal_output, axes, rate_weight):
+def mesh_contacts(r, d, ideal_output, axes, rate_weight, kept):
     """Contacts of disc d with the pins: adds to residual and tangent, fills the pin forces.
 
     r.z holds the disc's departure from ideal kinematics, its shift along axes at the angle
     ``axes`` [rad], r.v its velocity along the same axes.  The tangent is that of the
     residual with respect to z plus ``rate_weight`` [1/s] times that with respect to v; with
-    0 nothing moves.
+    0 nothing moves.  ``kept``: with what ``near_contacts`` needs to go on from here, which only stands still.
     """
     discs, pins = r.mesh_force.shape
     lobes = r.lobe_pitch_error.shape[1]
@@ -130,8 +130,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
     rx = ry = rt = rr = 0.0
     kxx = kxy = kxt = kxr = kyy = kyt = kyr = ktt = ktr = krr = 0.0
     loaded = 0
-    still = rate_weight == 0.0
-    apart = NEAR if still else APART
+    apart = NEAR if kept else APART
     r.near_count[d] = 0
     for j in range(pins):
         # Pin centre from the disc's centre, in the housing and in the profile's frame.
@@ -171,7 +170,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         gap = distance + clearance
         if gap >= 0.0:
             r.mesh_force_now[d, j] = 0.0
-            if gap > apart or not still:
+            if gap > apart or not kept:
                 continue
         # Gradient of the penetration: (N, arm about the disc, minus arm about the ring),
         # with the normal turned back from the displaced flank.
@@ -185,7 +184,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
         per_reach = 1.0 / (1.0 + bend * distance)
         bend *= per_reach
         turn = 1.0 - bend * reach
-        if still:
+        if kept:
             shift_cos, shift_sin = turn_of(shift)
             curvature, slope, curl, phase_slope = curvature_and_slopes(
                 ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
@@ -199,8 +198,10 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight):
             )
             if gap >= 0.0:
                 continue
+        if rate_weight == 0.0:
             force, stiffness = contact_force(-gap, r.mesh_constant * r.pin_stiffness[j], r.mesh_exponent)
-            keep_force(r, d, force)
+            if kept:
+                keep_force(r, d, force)
         else:
             rate = gx * r.v[x] + gy * r.v[y] + gt * r.v[t] + gr * r.v[ring]
             r.mesh_rate[d, j] = rate

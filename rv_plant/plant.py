@@ -10,7 +10,7 @@ import math
 from fmu_src.effect import compose
 from fmu_src.kernel import entry_point, kernel
 from fmu_src.variables import Sizes, Variable, local, output, state
-from rv_plant.assembly import assemble
+from rv_plant.assembly import assemble_once
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.coordinates import coordinate_count
 from rv_plant.dimension import FILE
@@ -94,6 +94,12 @@ def crank_departure(r):
 
 
 @kernel
+def error_of(r):
+    """Transmission error [rad] of the present equilibrium."""
+    return r.z[3 * r.roller_force.shape[0]] - twist_compliance(r) * r.load_torque
+
+
+@kernel
 def publish(r, output_speed):
     """Outputs that follow from the present equilibrium; ``output_speed`` is the ideal one."""
     cranks = r.roller_force.shape[1]
@@ -114,7 +120,7 @@ def publish(r, output_speed):
     twist = twist_compliance(r) * r.load_torque
     r.output_angle = r.ideal_output + turning - twist
     r.output_speed = output_speed
-    r.transmission_error = turning - twist
+    r.transmission_error = error_of(r)
     r.lag = -crank_turning / lobes - turning + twist
     # Virtual work of the cranks' turning, as the teeth's errors have it.
     r.drive_torque = (moment / r.first_stage_ratio if r.first_stage_ratio > 0.0 else -moment) - of_errors
@@ -151,7 +157,7 @@ def assemble_at_input(r):
     """Out-of-balance forces and tangent at the present input angle, where the bodies stand."""
     prepare_position(r)
     output, cage = angles_within_turn(r)
-    assemble(r, output, cage, r.load_torque)
+    assemble_once(r, output, cage, r.load_torque)
 
 
 @entry_point

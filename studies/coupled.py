@@ -9,7 +9,7 @@ from fmu_src.kernel import kernel
 from rv_plant.contact_arrays import copy_contacts
 from rv_plant.equilibrium import newton_direction
 from rv_plant.faults import NO_EQUILIBRIUM
-from rv_plant.plant import advance_effects, assemble_at_input, publish
+from rv_plant.plant import advance_effects, assemble_at_input, error_of, publish
 from rv_plant.plant import step as step_plant
 from rv_plant.turning import turn_input
 from wear_fmu.accumulator import step as step_wear
@@ -134,9 +134,10 @@ def step_beside(p, similar, i):
 
 
 @kernel
-def sweep_beside(plants, durations, torques, errors, similar):
+def sweep_beside(plants, durations, torques, errors, similar, forgets):
     """Transmission error [rad] after each of the ``durations`` [s], to first order beside a similar run; with the input held, under each of the output
-    ``torques`` [N m] instead, if there are any (not beside friction, whose springs remember).
+    ``torques`` [N m] instead, if there are any (not beside friction, whose springs remember).  ``forgets``: there is no state that the way to a
+    place brings there.
 
     One Newton step from each equilibrium of that run (rows of ``similar``): a third of the cost of a new
     equilibrium.  Contact forces stay those of the similar run.  One kernel for both: most of it is the plant's, which takes its time to compile.
@@ -149,10 +150,10 @@ def sweep_beside(plants, durations, torques, errors, similar):
         output_speed = turn_input(p, 0.0 if is_held else durations[i])
         if not step_beside(p, similar, i):
             return NO_EQUILIBRIUM
-        publish(p, output_speed)
-        if not is_held:
+        if not forgets:
+            publish(p, output_speed)
             advance_effects(p, durations[i])
-        errors[i] = p.transmission_error
+        errors[i] = error_of(p)
     return 0
 
 

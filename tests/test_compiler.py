@@ -191,11 +191,33 @@ def test_arguments_that_no_kernel_takes_are_refused():
 
 @pytest.fixture
 def kept(tmp_path, monkeypatch):
-    """A cache of its own; gives the folder of code."""
+    """A cache of its own, as outside of a virtual environment; gives the folder of code."""
     monkeypatch.setattr(cache, "root", lambda: tmp_path)
-    cache.cache_folder.cache_clear()
+    monkeypatch.setattr(sys, "prefix", sys.base_prefix)
+    for known in (cache.cache_folder, store.folder):
+        known.cache_clear()
     yield tmp_path / "code"
-    cache.cache_folder.cache_clear()
+    for known in (cache.cache_folder, store.folder):
+        known.cache_clear()
+
+
+def test_code_is_kept_with_the_environment(kept, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "environment"))
+    assert compile_anew()
+    assert entry_of(tmp_path / "environment" / "share" / "rvwear" / "code").is_file()
+    assert not kept.exists()
+    assert not compile_anew()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes of POSIX")
+def test_in_an_environment_that_is_not_ones_own_code_is_kept_by_the_user(kept, tmp_path, monkeypatch, capsys):
+    shared = tmp_path / "environment" / "share" / "rvwear" / "code"
+    shared.mkdir(parents=True)
+    shared.chmod(0o777)
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "environment"))
+    assert compile_anew()
+    assert entry_of(kept).is_file() and not list(shared.iterdir())
+    assert not capsys.readouterr().err
 
 
 def compile_anew():

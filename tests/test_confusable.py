@@ -75,6 +75,20 @@ def test_nothing_at_a_bound_is_a_plain_member():
     assert names([rival("b", 50.0, bounds=("b_size",)), rival("a", 100.0)]) == ["b"]
 
 
+def share(name, chi2, value, upper=1.0):
+    part = Parameter(f"{name}_share", "1", 0.0, 0.0, upper, 0.5, 1)
+    at = (part.name,) if value in (0.0, upper) else ()
+    return Rival(name, Fit(chi2, {part.name: value}, at, [part]), candidates=(Candidate(name, name, (part,)),))
+
+
+def test_a_share_that_is_all_is_a_value_like_another():
+    """No wear at all below a pressure: 33 better in chi-square than another exponent of the load, it was never named beside a second effect."""
+    assert not ends_at_a_bound(share("threshold", 100.0, 1.0))
+    assert names([share("threshold", 100.0, 1.0), rival("exponent", 104.0)]) == ["threshold", "exponent"]
+    # None of it is none, and a limit of the search is no share of anything.
+    assert ends_at_a_bound(share("threshold", 100.0, 0.0)) and ends_at_a_bound(share("skidding", 100.0, 0.9, upper=0.9))
+
+
 def test_an_effect_whose_shape_nothing_tells_is_a_simpler_one_in_disguise():
     """A seat that slips at any small torque is a spring."""
     assert names([rival("slip", 99.0, shape=5.0, known=30.0), rival("spring", 100.0)]) == ["spring"]

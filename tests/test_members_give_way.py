@@ -65,6 +65,15 @@ def test_what_members_have_in_common_speaks_for_none_of_them():
     assert confusable_set([seat, spring, other], compared=last) == [spring, other]
 
 
+def test_what_is_as_well_supported_but_for_a_bound_may_stand_in_a_members_place():
+    """Grease that runs out beside wear that grows: where nothing was hidden besides they stood in one set, beside a second effect they did not."""
+    final, seat, other = joint(FRICTION, SPRING, chi2=755.0), joint(FRICTION, SLIPPING, chi2=756.5), joint(FRICTION, OTHER, chi2=755.4)
+    selection = SimpleNamespace(settings=Settings(), in_place_of=lambda *_: [other, seat])
+    assert Selection.stand_ins(selection, final, SPRING.candidates[0], 1.0, 1e6) == [other, seat]
+    selection.in_place_of = lambda *_: [joint(FRICTION, SLIPPING, chi2=757.5)]
+    assert not Selection.stand_ins(selection, final, SPRING.candidates[0], 1.0, 1e6)
+
+
 def test_what_was_close_to_the_first_alone_is_tried_beside_the_second(monkeypatch):
     first, close, far = rival("spring", 46700.0), rival("other", 49900.0), rival("friction", 54200.0)
     first.gain = 8.89e6

@@ -31,7 +31,7 @@ def test_carried_contacts_are_those_of_the_whole_geometry(request, reducer, size
             moves[turning] /= r.pin_circle_radius
             r.z[:] = known + moves
             assert way_from_place(r) < NEAR
-            add_all(r, angle, CAGE, r.load_torque, True)
+            add_all(r, angle, CAGE, r.load_torque, True, False)
             near, tangent = r.residual_vector.copy(), np.triu(r.tangent).copy()
             forces, loaded, phases = r.mesh_force_now.copy(), r.loaded_teeth.copy(), r.mesh_phase.copy()
             assemble(r, angle, CAGE, r.load_torque)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import expm1, log1p
 
-from scipy.stats import norm, t
+from scipy.special import ndtr, stdtr
 
 from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.inference.chance import chance
@@ -14,7 +14,7 @@ RARE = 0.01
 
 def alone(figure: KeyFigure) -> float:
     """How often chance makes one figure as far off; few repetitions tell its noise badly, so that many times of it are less rare."""
-    return float(2.0 * (t.sf(abs(figure.off), figure.dof) if figure.dof else norm.sf(abs(figure.off))))
+    return float(2.0 * (stdtr(figure.dof, -abs(figure.off)) if figure.dof else ndtr(-abs(figure.off))))
 
 
 def rarest(figures: Sequence[KeyFigure]) -> tuple[KeyFigure, float]:

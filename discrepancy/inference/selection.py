@@ -14,6 +14,7 @@ from discrepancy.inference.refit.confusable import (
     newest_at_a_bound,
     newest_does_nothing,
     penalised,
+    unsettled,
 )
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
@@ -169,7 +170,8 @@ class Selection(Alone):
             return (member,) if joint is final else joint.candidates[-1:]
 
         rivals = sorted(self.in_place_of(final, member), key=penalised)
-        return [r for r in rivals if len(confusable_set([final, r], inflation, dof, self.settings.margin, exchanged)) == 2]
+        plain = [r for r in rivals if len(confusable_set([final, r], inflation, dof, self.settings.margin, exchanged)) == 2]
+        return sorted([*plain, *unsettled(rivals, plain, final, self.settings.margin, exchanged)], key=penalised)
 
     def settled(self, final: Refit) -> Refit:
         """A joint fit in which no member gives way to another in its place."""

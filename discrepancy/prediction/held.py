@@ -118,7 +118,7 @@ class Held(Runs):
         def beside(setting: Condition, angle: float, chosen: slice | Places, similar: Floats) -> Floats:
             applied, errors = torques[chosen], np.zeros(len(similar))
             plants = self.new_held(setting, values, angle, applied, similar[0])
-            self.check((coupled.sweep_beside(plants, NONE, applied, errors, similar), 0), plants, self.templates[1])
+            self.check((coupled.sweep_beside(plants, NONE, applied, errors, similar, True), 0), plants, self.templates[1])
             # The output turns in the torque's sense.
             return -errors
 

@@ -108,15 +108,15 @@ class Running(Runs):
         relevant, before = self.relevant(values, False), self.relevant(base, False)
 
         def beside(setting: Condition, chosen: slice | Places, similar: Floats) -> Floats:
-            passed, errors = angles[chosen], np.zeros(len(similar))
+            passed, errors, forgets = angles[chosen], np.zeros(len(similar)), self.forgets(setting, values)
 
             def along(part: slice) -> None:
                 plants = self.new_plant(setting, values, float(passed[0]), cage, z=similar[part][0])
                 self.turn_on(plants, float(passed[part][0] - passed[0]))
-                status = coupled.sweep_beside(plants, self.durations(setting, passed[part]), NONE, errors[part], similar[part])
+                status = coupled.sweep_beside(plants, self.durations(setting, passed[part]), NONE, errors[part], similar[part], forgets)
                 self.check((status, 0), plants, self.templates[1])
 
-            self.threads.map(along, parts(len(passed)) if self.forgets(setting, values) else [slice(None)])
+            self.threads.map(along, parts(len(passed)) if forgets else [slice(None)])
             return errors
 
         def whole(setting: Condition) -> Floats:

@@ -9,6 +9,7 @@ import numpy as np
 
 from fmu_src.arrays import Floats, copied
 from fmu_src.faults import RunFault
+from fmu_src.kernel import plain
 from fmu_src.table import Table
 from fmu_src.threads import Once
 from reducers.reducer import Reducer
@@ -23,6 +24,7 @@ from wear_fmu.variables import Resolution
 # Out-of-balance force over load: errors of 1e-5 arcsec.
 TOLERANCE = 1e-7
 KEPT_RUNS = 4000
+turned_by = plain(cage_rate)
 # The values that a run depends on, by name.
 Relevant = tuple[tuple[str, float], ...]
 Run = TypeVar("Run")
@@ -147,7 +149,7 @@ class Units:
 
     def cages_per_turn(self, plants: np.ndarray) -> float:
         """Turns of the cages per turn of the output."""
-        return float(cage_rate(-self.reducer.topology.lobes, 1.0, plants["inner_race_radius"][0], plants["outer_race_radius"][0]))
+        return float(turned_by(-self.reducer.topology.lobes, 1.0, float(plants["inner_race_radius"][0]), float(plants["outer_race_radius"][0])))
 
     def input_speed(self, condition: Condition) -> float:
         """Speed of the sun [rad/s] with its sign."""

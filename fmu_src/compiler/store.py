@@ -5,17 +5,26 @@ An entry is a checked file: a header (JSON: what it was made from) and the objec
 
 import hashlib
 import json
+import sys
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from fmu_src import checked_file
-from fmu_src.cache_folder import cache_folder
+from fmu_src.cache_folder import cache_folder, own_folder
 
 MARK = b"rvwear object code 1\n"
 
 
+@cache
+def folder() -> Path:
+    """In a virtual environment of one's own, with the packages whose code it is; else in the user's cache."""
+    own = own_folder(Path(sys.prefix, "share", "rvwear", "code")) if sys.prefix != sys.base_prefix else None
+    return own or cache_folder("code")
+
+
 def place_of(name: str) -> Path:
-    return cache_folder("code") / name
+    return folder() / name
 
 
 def read(name: str) -> tuple[dict[str, Any], bytes] | None:

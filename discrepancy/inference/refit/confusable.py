@@ -57,7 +57,7 @@ def known_before(rival: Refit) -> float:
 def ends_at_a_bound(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
     """Whether a parameter, of some ``members`` if they are given, ended at a bound, or a shape so near to one that the effect stands for another, simpler
     one."""
-    return any(_at_a_bound(rival, p) for c in (rival.candidates if members is None else members) for p in c.parameters)
+    return any(_at_a_bound(rival, p) and not _is_all(rival, c, p) for c in (rival.candidates if members is None else members) for p in c.parameters)
 
 
 def newest_at_a_bound(joint: Refit) -> bool:
@@ -72,6 +72,11 @@ def newest_does_nothing(joint: Refit) -> bool:
 
 def _at_a_bound(rival: Refit, p: Parameter) -> bool:
     return p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name])
+
+
+def _is_all(rival: Refit, candidate: Candidate, p: Parameter) -> bool:
+    """Whether an amplitude is a share, and all: that is a value like another (no wear below a threshold), and no limit of the search."""
+    return p in candidate.amplitudes and (p.lower, p.upper) == (0.0, 1.0) and rival.fit.values[p.name] > 0.5
 
 
 def has_idle_shapes(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
@@ -124,17 +129,18 @@ def confusable_set(rivals: Sequence[Refit], inflation: float = 1.0, dof: float =
     return near if best in near else [best, *near]
 
 
-def unsettled(rivals: Sequence[Refit], members: Sequence[Refit], final: Refit, margin: float = MARGIN) -> list[Refit]:
+def unsettled(rivals: Sequence[Refit], members: Sequence[Refit], final: Refit, margin: float = MARGIN,
+              compared: Callable[[Refit], Sequence[Candidate]] = every_member) -> list[Refit]:  # fmt: skip
     """Effects that are no plain members, for a value ends at a bound or is told by nothing, but cannot be left out of a set either.
 
     Mostly such a fit is a simpler effect in disguise (a seat that never slips is a spring); it stands beside that one where the data
     support it as well, or where it puts the cause elsewhere: into the reducer and not into the instruments, or the other way round.
-    A number of the base model leaves none out that is as well supported, and stands itself beside no effect.
+    A number of the base model leaves none out that is as well supported, and stands itself beside no effect.  ``compared``: see ``confusable_set``.
     """
-    part = final.candidates[0].part
+    part = compared(final)[0].part
     found = []
     for r in rivals:
-        other = r.candidates[0].part
+        other = compared(r)[0].part
         if r not in members and other != BASE:
             elsewhere = part != BASE and (part == CHAIN) != (other == CHAIN)
             if penalised(r) - penalised(final) <= (margin if elsewhere else SUPPORTED):
