@@ -45,6 +45,12 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
     return kept
 
 
+def more_of(form: Refit, best: Refit) -> bool:
+    """Whether one is a form of the other's effect that can do more."""
+    (a,), (b,) = form.candidates, best.candidates
+    return a.name.partition(".")[0] == b.name.partition(".")[0] and len(a.parameters) > len(b.parameters)
+
+
 class Alone:
     """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
 
@@ -85,15 +91,19 @@ class Alone:
             fits = [fits[0], *self.widely(rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates))]
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
-        return sorted([*first, *others, *[f for f in fits[1:] if f.fit.chi2 >= near]], key=penalised)
+        behind = [f for f in fits[1:] if f.fit.chi2 >= near]
+        unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]
+        for fit in unfinished:
+            self.refits.forget(fit)
+        return sorted([*first, *others, *(f for f in behind if f not in unfinished)], key=penalised)
 
     def widely(self, fits: list[Refit]) -> list[Refit]:
         """``fits``, the foremost from other starts too; not those that leave as little as one that leaves no more than noise: a better one would only
-        follow the noise."""
+        follow the noise.  Forms of the best effect that can do more than it are of use only where it leaves something."""
         if not fits:
             return []
         enough = -np.inf if leaves_some(fits[0].fit) else fits[0].fit.chi2 + self.settings.margin
-        chosen = [*fits[:1], *(f for f in fits[1:FOREMOST] if f.fit.chi2 > enough)]
+        chosen = [*fits[:1], *(f for f in fits[1:FOREMOST] if f.fit.chi2 > enough and not more_of(f, fits[0]))]
         found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(fits[0])), chosen)
         return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
 

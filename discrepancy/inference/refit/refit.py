@@ -143,7 +143,9 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
         value = fit.values[p.name]
         shape = not any(p is a for c in result.candidates for a in c.amplitudes)
         if shape and p.lower > 0 and value > 0:
-            low, high = value * np.exp(-half / value), value * np.exp(half / value)
+            # Nothing is told beyond its bounds.
+            factor = np.exp(min(half / value, np.log(p.upper / p.lower)))
+            low, high = value / factor, value * factor
         else:
             below, above = result.stretch.get(p.name, (1.0, 1.0))
             low, high = value - below * half, value + above * half

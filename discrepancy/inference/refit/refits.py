@@ -103,6 +103,14 @@ class Refits:
             self.fitted[key] = min(result, other, key=lambda r: r.fit.chi2)
         return in_order(self.fitted[key], result.candidates)
 
+    def is_wide(self, result: Refit) -> bool:
+        """Whether other starts were tried."""
+        return result.key in self.widely
+
+    def forget(self, result: Refit) -> None:
+        """A fit that nobody goes on with says nothing of its effect."""
+        self.fitted.pop(result.key, None)
+
     def along_valley(self, name: str, rate: float) -> Refit:
         """The fit of an effect alone from places all along the valley of its two amplitudes, if one of them is better; ``rate``: see ``bent.exchange``."""
         known = self.fit([name])
