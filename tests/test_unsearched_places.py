@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from discrepancy.alike.unsearched_places import turned, unsearched_places, unsearched_text
+from discrepancy.campaign.model import Condition
 from discrepancy.model_file import ModelFile, load_model
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import Record
@@ -33,7 +34,8 @@ def model_of(file):
     from tests.test_next_run import CAMPAIGN
 
     record = Record("r", "transmission_error", "rad", "a", 1, np.zeros(len(ANGLES)), {"angle": ANGLES}, FACTORS, stated_noise=1e-7)
-    return PhysicalModel(file, replace(CAMPAIGN, reducer=file.reducer, records=(record,)), zeros={})
+    conditions = {"a": Condition("a", FACTORS, "1", False, True)}
+    return PhysicalModel(file, replace(CAMPAIGN, reducer=file.reducer, records=(record,), conditions=conditions), zeros={})
 
 
 @pytest.fixture(scope="module", params=[2, 3])
