@@ -25,4 +25,8 @@ def compile_ahead(reducer: Reducer) -> None:
 
 
 if __name__ == "__main__":
-    compile_ahead(load_reducer(sys.argv[1]))
+    try:
+        compile_ahead(load_reducer(sys.argv[1]))
+    except KeyboardInterrupt:
+        # What is not compiled now is when it is called.
+        sys.exit(130)
