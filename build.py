@@ -138,8 +138,8 @@ def main(arguments: list[str]) -> int:
     os.chdir(HERE)
     if problem := rvwear("build", "--output", "dist"):
         return problem
-    # What later commands compute with is compiled now; beside the life, which leaves a core.
-    ahead = subprocess.Popen([str(SCRIPTS / "python"), "-m", "discrepancy.prediction.compiled_ahead", REDUCER])
+    # What later commands compute with is compiled now; beside the life, which leaves a core.  Ctrl-C is for the life: this takes seconds and ends by itself.
+    ahead = subprocess.Popen([str(SCRIPTS / "python"), "-m", "discrepancy.prediction.compiled_ahead", REDUCER], start_new_session=True)
     problem = rvwear("life", "--reducer", REDUCER, "--fmus", "dist", "--reuse", "--output", f"results/{REDUCER}.nc")
     return ahead.wait() or problem
 

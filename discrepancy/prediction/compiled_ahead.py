@@ -25,8 +25,4 @@ def compile_ahead(reducer: Reducer) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        compile_ahead(load_reducer(sys.argv[1]))
-    except KeyboardInterrupt:
-        # What is not compiled now is when it is called.
-        sys.exit(130)
+    compile_ahead(load_reducer(sys.argv[1]))
