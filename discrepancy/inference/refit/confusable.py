@@ -76,7 +76,7 @@ def _at_a_bound(rival: Refit, p: Parameter) -> bool:
 
 def _is_all(rival: Refit, candidate: Candidate, p: Parameter) -> bool:
     """Whether an amplitude is a share, and all: that is a value like another (no wear below a threshold), and no limit of the search."""
-    return p in candidate.amplitudes and (p.lower, p.upper) == (0.0, 1.0) and rival.fit.values[p.name] > 0.5
+    return p in candidate.amplitudes and (p.unit, p.lower, p.upper) == ("1", 0.0, 1.0) and rival.fit.values[p.name] > 0.5
 
 
 def has_idle_shapes(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
