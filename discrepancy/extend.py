@@ -27,7 +27,7 @@ from discrepancy.inference.verdict import Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Candidate, Parameter
+from discrepancy.problem import BASE, Candidate, Parameter, effect_of
 from discrepancy.verdict import Answer
 from discrepancy.words import as_told
 from discrepancy.words.intervals import relied_on
@@ -110,7 +110,7 @@ def extend(file: ModelFile, campaign: Campaign, names: list[str], settings: Sett
             # A number of the reducer file that was assumed: from now on as it was measured.
             settings_found |= {p.name: known_to(fit.fit.values[p.name], sure[p.name]) for p in candidate.parameters}
             continue
-        effects.setdefault(candidate.name.partition(".")[0], {}).update({
+        effects.setdefault(effect_of(candidate.name), {}).update({
             p.name: {"value": float(fit.fit.values[p.name]), "unit": p.unit,
                      "low": float(sure[p.name][0]), "high": float(sure[p.name][1])} | ({"alike": others[p.name]} if p.name in others else {})
             for p in candidate.parameters
@@ -183,14 +183,14 @@ def variants_of(name: str, candidates: Sequence[Candidate], file: ModelFile) -> 
     """Candidates of a name: one variant, or all those of an effect."""
     if exact := [c for c in candidates if c.name == name]:
         return exact
-    variants = [c for c in candidates if c.name.partition(".")[0] == name]
+    variants = [c for c in candidates if effect_of(c.name) == name]
     if numbers := numbers_of(name, file):
         # Of an effect that is there another form is not meant by the name alone.
         raise AlreadyThere(name, file, numbers, [c.name for c in variants])
     if not variants:
         known = sorted({c.name for c in candidates})
         plain = [*known, *{c.partition(".")[0] for c in known}]
-        nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(name.partition(".")[0], plain, 1)
+        nearest = difflib.get_close_matches(name, plain, 1) or difflib.get_close_matches(effect_of(name), plain, 1)
         text = f"effect {name!r}: not among those that this campaign can show and the model lacks"
         raise UnknownEffect(name, nearest, text + (f"; did you mean {nearest[0]}?" if nearest else f": {', '.join(known)}"))
     return variants

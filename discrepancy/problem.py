@@ -32,6 +32,11 @@ BASE = "base"
 CHAIN = "chain"
 
 
+def effect_of(name: str) -> str:
+    """The effect of a candidate's name: variants have it before the dot."""
+    return name.partition(".")[0]
+
+
 # Bounds of an angle [rad] that are so far apart are those of a direction, where a gear or a wave stands; errors of angles are far smaller.
 WIDE = 1.5
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from discrepancy.model_file import ModelFile, every_effect
-from discrepancy.problem import BASE
+from discrepancy.problem import BASE, effect_of
 from discrepancy.scales import largest, of_parameter
 from discrepancy.words.as_told import effect_name, tables_of, told_name
 from fmu_src.faults import InputFault
@@ -34,7 +34,7 @@ def numbers_of(name: str, file: ModelFile) -> dict[str, dict[str, Any]]:
 def names_of(file: ModelFile) -> list[str]:
     """Of all that the model has: as steps added it, else by the effect's name."""
     added = dict.fromkeys(name for step in file.steps if step.get("kept", True) for name in step["effects"] if numbers_of(name, file))
-    return [*added, *(effect for effect in file.effects if effect not in {name.partition(".")[0] for name in added})]
+    return [*added, *(effect for effect in file.effects if effect not in {effect_of(name) for name in added})]
 
 
 def own_settings(file: ModelFile) -> bool:

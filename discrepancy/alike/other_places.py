@@ -19,6 +19,7 @@ from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.candidates import groups
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import effect_of
 from fmu_src.effect import Effect, EffectParameter
 
 # Of what an effect shows, what another place may leave: cages of rollers are placed anew for each fit, and sizes take up some (assumed).
@@ -121,10 +122,6 @@ def as_shown(space: Workspace, fitted: Mapping[str, float], rest: Mapping[str, f
 
     enough = max(APART, LEFT * apart(rest))
     return lambda values: apart(values) < enough
-
-
-def effect_of(candidate: str) -> str:
-    return candidate.partition(".")[0]
 
 
 def group_of(candidate: str) -> str:

@@ -9,9 +9,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-from discrepancy.alike.other_places import choices, current, effect_of, group_of, parts, siblings, words
+from discrepancy.alike.other_places import choices, current, group_of, parts, siblings, words
 from discrepancy.model_file import every_effect
 from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.problem import effect_of
 from fmu_src.effect import Effect
 from rv_plant.topology import Topology
 

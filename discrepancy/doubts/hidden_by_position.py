@@ -10,9 +10,8 @@ from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.screening.screen import Columns
-from discrepancy.inference.separable import effect_of
 from discrepancy.inference.verdict import Diagnosis
-from discrepancy.problem import BASE, CHAIN, Candidate
+from discrepancy.problem import BASE, CHAIN, Candidate, effect_of
 from discrepancy.scales import of_parameter
 from discrepancy.words.as_told import told_name
 from fmu_src.arrays import Floats
@@ -25,7 +24,7 @@ HIDDEN, MOST_SAID = 0.1, 3
 
 def hidden_by_position(doctor: Diagnostician, found: Diagnosis, tables: Sequence[Table]) -> list[str]:
     """One sentence where a position is named: how much of what looks like it may be in the loops besides; empty where it is not."""
-    holding = next((m for m in found.fits.members if POSITION in map(effect_of, m.candidates)), None)
+    holding = next((m for m in found.fits.members if POSITION in (effect_of(c.name) for c in m.candidates)), None)
     columns: Columns | None = getattr(doctor, "columns", None)
     if holding is None or columns is None:
         return []

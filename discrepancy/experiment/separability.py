@@ -11,10 +11,10 @@ from discrepancy.campaign.planned import with_planned
 from discrepancy.experiment.usual_noise import UNMEASURED
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import candidate_columns
-from discrepancy.inference.separable import APART, STRENGTH, Pair, effect_of, separations
+from discrepancy.inference.separable import APART, STRENGTH, Pair, separations
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import BASE, Record
+from discrepancy.problem import BASE, Record, effect_of
 from fmu_src.faults import InputFault
 from fmu_src.threads import sharing_no_matrices
 
@@ -82,7 +82,7 @@ def separability(campaign: Campaign, strength: float = STRENGTH, jobs: int = 1) 
         columns = candidate_columns(space, candidates, space.base.values)
     pairs = separations(space, candidates, columns, strength)
     seen = {p.hidden for p in pairs}
-    return Separability(pairs, [e for e in dict.fromkeys(map(effect_of, candidates)) if e not in seen], planned, strength)
+    return Separability(pairs, [e for e in dict.fromkeys(effect_of(c.name) for c in candidates) if e not in seen], planned, strength)
 
 
 def thinned(record: Record) -> Record:

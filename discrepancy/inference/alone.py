@@ -16,7 +16,7 @@ from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, bounded_gain
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import BASE, Candidate
+from discrepancy.problem import BASE, Candidate, effect_of
 
 # What has a name and leads to a refit.
 Named = TypeVar("Named", Score, Refit)
@@ -38,7 +38,7 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
     counts: dict[str, int] = {}
     kept = []
     for s in scores:
-        effect = s.name if s.name.startswith(BASE) else s.name.partition(".")[0]
+        effect = s.name if s.name.startswith(BASE) else effect_of(s.name)
         counts[effect] = counts.get(effect, 0) + 1
         if counts[effect] <= 2:
             kept.append(s)
@@ -48,7 +48,7 @@ def few_of_each(scores: Sequence[Score]) -> list[Score]:
 def more_of(form: Refit, best: Refit) -> bool:
     """Whether one is a form of the other's effect that can do more."""
     (a,), (b,) = form.candidates, best.candidates
-    return a.name.partition(".")[0] == b.name.partition(".")[0] and len(a.parameters) > len(b.parameters)
+    return effect_of(a.name) == effect_of(b.name) and len(a.parameters) > len(b.parameters)
 
 
 class Alone:
@@ -75,7 +75,7 @@ class Alone:
         # Of the best effect all forms that show as much: five springs look alike in a loop.
         best = fits[0].candidates[0].name
         enough = (1.0 - LINEAR) * self.scores[best].statistic - 4 * self.settings.margin
-        twins = [s for s in scores if s not in chosen and s.name.partition(".")[0] == best.partition(".")[0] and s.statistic >= enough]
+        twins = [s for s in scores if s not in chosen and effect_of(s.name) == effect_of(best) and s.statistic >= enough]
         fits = sorted([*fits, *self.tried("fitting alone, forms that look alike", lambda s: self.refits.fit([s.name]), twins)], key=penalised)
         rates = {c.name: rate for k, c in enumerate(self.candidates) if c.name in self.scores and (rate := exchange(self.columns, k, c)) is not None}
         # Of a large effect much is left until it is fitted in earnest.

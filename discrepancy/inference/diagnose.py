@@ -27,7 +27,7 @@ from discrepancy.inference.screening.visible import Visible, visible
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import SAME_CHI2, Teller
 from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
-from discrepancy.problem import BASE, CHAIN, Candidate, Model
+from discrepancy.problem import BASE, CHAIN, Candidate, Model, effect_of
 from fmu_src.percent import percent
 from fmu_src.progress import say
 
@@ -121,7 +121,7 @@ class Diagnostician:
 
     def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], Refit | None]:
         """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together."""
-        candidates = [c for c in self.candidates if c.name.partition(".")[0] in first]
+        candidates = [c for c in self.candidates if effect_of(c.name) in first]
         if not candidates:
             return [], None
         self.screened(candidates)

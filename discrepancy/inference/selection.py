@@ -20,7 +20,7 @@ from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import BASE, Candidate
+from discrepancy.problem import BASE, Candidate, effect_of
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
@@ -216,7 +216,7 @@ class Selection(Alone):
         what = f"fitting in place of {member.name}"
         rivals = self.tried(what, lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
         # Of what comes near all forms that show as much: four springs look alike in a loop.
-        alike = {c.name.partition(".")[0] for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
-        twins = [s for s in others if s not in chosen and s.name.partition(".")[0] in alike]
+        alike = {effect_of(c.name) for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
+        twins = [s for s in others if s not in chosen and effect_of(s.name) in alike]
         rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
         return [self.as_reported(least, r) if r.fit.chi2 < near else r for r in rivals]

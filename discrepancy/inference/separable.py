@@ -22,7 +22,7 @@ from scipy.special import ndtr
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic, limits
-from discrepancy.problem import Candidate
+from discrepancy.problem import Candidate, effect_of
 from fmu_src.arrays import Floats
 
 STRENGTH = 10.0
@@ -56,11 +56,6 @@ def best_error(separation: float) -> float:
     return float(ndtr(-0.5 * separation))
 
 
-def effect_of(candidate: Candidate) -> str:
-    """Variants of an effect have its name before the dot."""
-    return candidate.name.partition(".")[0]
-
-
 def separations(space: Workspace, candidates: Sequence[Candidate], columns: Columns, strength: float = STRENGTH) -> list[Pair]:
     """Every ordered pair of effects that show at all, the hardest first; to first order in the amplitudes, shapes on their grids and between."""
     projected = project_out(columns.values, space.base.jacobian, space.base.normal)
@@ -73,7 +68,7 @@ def separations(space: Workspace, candidates: Sequence[Candidate], columns: Colu
     unit = gram / np.outer(sizes, sizes)
     own: dict[str, list[Block]] = {}
     for block in columns.blocks:
-        own.setdefault(effect_of(candidates[block.candidate]), []).append(block)
+        own.setdefault(effect_of(candidates[block.candidate].name), []).append(block)
     # What may be hidden: column and sign; an effect of either sign is as near as its nearer side.
     hidden = {name: [(k, s, min(strength, ranges[k, (s > 0) * 1])) for b in blocks
                      for k, sign in zip(range(b.columns.start, b.columns.stop), b.signs) if seen[k]

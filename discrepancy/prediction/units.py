@@ -24,7 +24,6 @@ from wear_fmu.variables import Resolution
 # Out-of-balance force over load: errors of 1e-5 arcsec.
 TOLERANCE = 1e-7
 KEPT_RUNS = 4000
-turned_by = plain(cage_rate)
 # The values that a run depends on, by name.
 Relevant = tuple[tuple[str, float], ...]
 Run = TypeVar("Run")
@@ -149,7 +148,7 @@ class Units:
 
     def cages_per_turn(self, plants: np.ndarray) -> float:
         """Turns of the cages per turn of the output."""
-        return float(turned_by(-self.reducer.topology.lobes, 1.0, float(plants["inner_race_radius"][0]), float(plants["outer_race_radius"][0])))
+        return float(plain(cage_rate)(-self.reducer.topology.lobes, 1.0, float(plants["inner_race_radius"][0]), float(plants["outer_race_radius"][0])))
 
     def input_speed(self, condition: Condition) -> float:
         """Speed of the sun [rad/s] with its sign."""
