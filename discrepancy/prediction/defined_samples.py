@@ -14,11 +14,13 @@ FLOATING = 0.01
 
 
 def defined(record: Record, campaign: Campaign) -> Record:
-    """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it."""
+    """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it: what is left
+    of one that joined its branch is on it as one that was gone round before."""
     kept = defined_at(record, campaign)
     if kept.all():
         return record
-    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()})
+    closed = record.closed or joined(record, campaign) > 0.0
+    return replace(record, values=record.values[kept], axes={k: np.asarray(v)[kept] for k, v in record.axes.items()}, closed=closed)
 
 
 def defined_at(record: Record, campaign: Campaign) -> Mask:
@@ -30,10 +32,16 @@ def defined_at(record: Record, campaign: Campaign) -> Mask:
     rated = campaign.rated_torque or float(np.abs(torque).max())
     kept: Mask = np.abs(torque) > FLOATING * rated
     kept[: uncertain(torque, record.values)] = False
-    if not record.closed:
-        way, joined = way_of(torque), max(joined_after(np.asarray(r.axes["torque"], float), r.values) for r in repetitions(record, campaign))
-        kept[: np.argmax(way > joined) if joined > 0.0 else 0] = False
+    if (way := joined(record, campaign)) > 0.0:
+        kept[: np.argmax(way_of(torque) > way)] = False
     return kept
+
+
+def joined(record: Record, campaign: Campaign) -> float:
+    """How far the torque [N m] of a loop goes before it, and all that repeat it, have joined the branch that passes there again; 0 of others."""
+    if record.quantity != "hysteresis" or "torque" not in record.axes or record.closed:
+        return 0.0
+    return max(joined_after(np.asarray(r.axes["torque"], float), r.values) for r in repetitions(record, campaign))
 
 
 def repetitions(record: Record, campaign: Campaign) -> list[Record]:
