@@ -56,7 +56,7 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
         # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
         elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
         if more > OF_MISFIT * least or elsewhere or always or name in (known or {}):
-            zeros[name] = float(shifts[best])
+            zeros[name] = bounds.held(between_looks(shifts, misfits))
     return zeros
 
 
@@ -128,6 +128,12 @@ def between(places: Floats, misfits: Floats) -> float:
     return float(places[k] + vertex(*misfits[k - 1 : k + 2]) * (places[1] - places[0]))
 
 
+def between_looks(places: Floats, misfits: Sequence[float]) -> float:
+    """The same next to the least of all, at the ends, too: a wave follows the other, and beyond ``ZeroBounds`` nobody looks."""
+    best = int(np.argmin(misfits))
+    return float(places[best] + vertex(*(misfits[(best + k) % len(misfits)] for k in (-1, 0, 1))) * (places[1] - places[0]))
+
+
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
                values: Mapping[str, float], names: Sequence[str], bounds: ZeroBounds = ANYWHERE) -> tuple[float, dict[str, float]]:  # fmt: skip
     """Those of the zeros ``names`` [rad] that leave least of one record each beside an effect of ``values``, and what they leave, in its variance."""
@@ -137,7 +143,7 @@ def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record:
         if name in names:
             misfits = [misfit(record, e) / misfit(record, record.values) for e in shown_at(bench, record, for_record(record, values), shifts)[1]]
             best = int(np.argmin(misfits))
-            zeros[name], whole = float(shifts[best]), whole + misfits[best]
+            zeros[name], whole = bounds.held(between_looks(shifts, misfits)), whole + misfits[best]
     return whole, zeros
 
 
