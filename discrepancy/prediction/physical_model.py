@@ -45,6 +45,9 @@ from fmu_src.threads import Threads
 
 # Bounds of the output's lag, of the base model's: real reducers are up to ten times as soft as those on rigid supports; none where it was the input's angle.
 LAGS = (0.0, 12.0)
+# What is known of it beforehand, as a standard deviation (assumed): wide, for two loads tell it.  One load tells it and the angle's zero together: they go
+# nowhere then, and an input that was locked stays where it was.
+LAG_KNOWN = 3.0
 # Error, over the size of the quantity, of values that are impossible.
 IMPOSSIBLE = 100.0
 # Kept predictions: those of one call, of all its runs that repeat each other.
@@ -160,7 +163,7 @@ class PhysicalModel(PlacedBeside):
             for name, zero in self.zeros.items()
         ]  # fmt: skip
         if any(r.of_output for r in self.records):
-            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, None, PLACES_ENCODER))
+            found.append(Parameter(LAG_SHARE, "1", 1.0, *LAGS, 0.05, 0, LAG_KNOWN, PLACES_ENCODER))
         return found
 
     def predict(self, values: Mapping[str, float], which: Sequence[int] | None = None) -> list[Floats]:
