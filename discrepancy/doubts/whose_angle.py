@@ -2,10 +2,9 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.joint import left_of
 from discrepancy.prediction.conditions import LAG_SHARE, angle_zero, angles_of, zero_of
 from discrepancy.prediction.curves import moved
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -30,10 +29,3 @@ def gained_as_input(model: PhysicalModel, space: Workspace, fit: Fit) -> float:
             error = model.one(replace(record, of_output=False), {**fit.values, angle_zero(record): zero})
             shown[i] = moved(angles_of(model.bench, record, zero), error, error.mean() - error) - error
     return left_of(fit.residual, fit.jacobian) - left_of(fit.residual + space.whiten(shown), fit.jacobian)
-
-
-def left_of(residual: Floats, jacobian: Floats) -> float:
-    """Squares of a whitened ``residual`` (n,) that no parameter of the ``jacobian`` (n, p) takes away."""
-    steps, *_ = np.linalg.lstsq(jacobian, residual, rcond=None)
-    left = residual - jacobian @ steps
-    return float(left @ left)

@@ -64,9 +64,9 @@ class Selection(Alone):
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
-            least, lenient = self.least_gain(current, best)
+            least, plainly = self.least_gain(current, best)
             promising = [s for s in promising if s.statistic >= max(HOPELESS * promising[0].statistic, FAR_SHORT * least)]
-            if lenient:
+            if least < plainly:
                 promising += self.thresholds(more, [*names, *(s.name for s in promising)])
             if not promising:
                 break
@@ -83,7 +83,7 @@ class Selection(Alone):
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
                 break
-            if lenient and not self.judgement.foretells(challenger, current):
+            if extra < plainly and not self.judgement.foretells(challenger, current):
                 break
             current = self.backward(challenger, least)
             if len(current.candidates) <= len(names):
@@ -132,14 +132,11 @@ class Selection(Alone):
                 found.append(dataclasses.replace(s, start={p.name: p.off + p.sign * p.scale}))
         return found[:MOST_THRESHOLDS]
 
-    def least_gain(self, current: Refit, first: Refit) -> tuple[float, bool]:
-        """What a further effect must gain, and whether that is less than a fixed part of the first: then it must be seen elsewhere too."""
+    def least_gain(self, current: Refit, first: Refit) -> tuple[float, float]:
+        """What a further effect must gain if it is seen elsewhere too, and from where on it need not: a fixed part of the first."""
         fixed = max(self.settings.second_gain * first.gain, 12.0)
         over, left, _, _ = self.judgement.leftover(current)
-        if not over:
-            return fixed, False
-        needed = max(self.settings.needed * left, 12.0)
-        return min(fixed, needed), needed < fixed
+        return min(fixed, max(self.settings.needed * left, 12.0)) if over else fixed, fixed
 
     def backward(self, joint: Refit, least: float) -> Refit:
         """Drops members without which the fit is hardly worse."""

@@ -32,6 +32,8 @@ ErrorWith = Callable[[Record, bool], Floats]
 # Positions of a turn of the cranks that are looked at first (discs that jam show another loop 20 deg further); parts into which what is left is divided,
 # and how often (to a degree of the input, and between); of first positions, and of turns of the cranks, those about which is looked so closely.
 PER_TURN, CLOSER, TIMES, MOST_CLOSER = 64, 4, 2, 3
+# Turns of the cranks other than that of a place that was fitted that are looked at as finely as any prediction.
+MOST_TURNS = 8
 # A place that was fitted is not left for one that a search, which is rough, sees nearer than this share of its first steps.
 NEAR = 0.5
 # How far from where a search saw it a place may be [first steps of the search], as a standard deviation.
@@ -114,6 +116,27 @@ class UnstatedPlaces:
             other[name] = there - self.period if there > 0.5 * self.period else there
         return other
 
+    def in_other_turns(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt) -> list[dict[str, float]]:
+        """What was found with these effects, each time with one condition's loops locked in another turn of the cranks, or half a one on, of those
+        that leave least.
+
+        An effect of the ring shows nearly the same in some turns, and a search, which is rough, may have taken the wrong one.
+        """
+        before, others = with_most(self.found, effects, {}), []
+        for condition, now in self.taken(effects, values).items():
+            loop, moved = self.loops[condition], values.get(from_there(condition), 0.0)
+            if self.all_alike(loop, predicted, now, left_of(loop, predicted, now)):
+                continue
+            turns = now + 0.5 * self.period * np.arange(1, round(2.0 * self.turn / self.period))
+            likely = turns[np.argsort([left_of(loop, predicted, place) for place in turns])[:MOST_TURNS]]
+            others += [{**before, condition: self.closer(loop, predicted, place) % self.turn - moved} for place in likely]
+        return others
+
+    def all_alike(self, loop: Record, predicted: LoopAt, place: float, left: float) -> bool:
+        """Whether turns of the cranks show the same as that of ``place``, which leaves so much: what is fixed to the ring makes them differ."""
+        turns, there = place + np.arange(0.0, self.turn, self.period), predicted(loop, place)
+        return all(float(np.var(predicted(loop, turns[len(turns) // part]) - there)) < SAME * left for part in OTHER_TURNS)
+
     @contextmanager
     def tried(self, effects: Effects, known: Effects) -> Iterator[None]:
         """The places of ``known`` effects for these, for a while."""
@@ -161,9 +184,8 @@ class UnstatedPlaces:
 
         # Turns of the cranks differ by little, by what is fixed to the ring: one of them first, then all, unless some of them show the same.
         first = closest_of(np.arange(PER_TURN) * self.step)
-        turns, there, seen = first + np.arange(0.0, self.turn, self.period), predicted(loop, first), left(first)
-        same = all(float(np.var(predicted(loop, turns[len(turns) // part]) - there)) < SAME * seen for part in OTHER_TURNS)
-        found = (first if same else closest_of(turns)) % self.turn
+        alike = self.all_alike(loop, predicted, first, left(first))
+        found = (first if alike else closest_of(first + np.arange(0.0, self.turn, self.period))) % self.turn
         if now is not None and (self.are_near(found, now) or left(found) > BETTER * left(now)):
             found = now
         return found if left(found) < CLEARLY * left(None) else None

@@ -45,6 +45,13 @@ def left_by(space: Workspace, fit: Fit) -> float:
     return total_cost(space, Box(fit.parameters), fit.values)[0]
 
 
+def left_of(residual: Floats, jacobian: Floats) -> float:
+    """Squares of a whitened ``residual`` (n,) that no parameter of the ``jacobian`` (n, p) takes away."""
+    steps, *_ = np.linalg.lstsq(jacobian, residual, rcond=None)
+    left = residual - jacobian @ steps
+    return float(left @ left)
+
+
 def may_reach(fit: Fit, least: float) -> bool:
     """Whether a fit may come below the chi-square ``least`` by more steps, by what the next one promises."""
     return fit.chi2 - HOPE * still_promised(fit) < least

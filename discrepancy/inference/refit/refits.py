@@ -11,11 +11,11 @@ from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
 from discrepancy.inference.refit.effect_fit import EXPLAINS
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
-from discrepancy.inference.refit.joint import from_there, jointly, left_by, there
+from discrepancy.inference.refit.joint import from_there, jointly, left_by, left_of, there
 from discrepancy.inference.refit.reach import BETTER, reach
 from discrepancy.inference.refit.refit import Refit, finished, refit
 from discrepancy.inference.screening.screen import Score
-from discrepancy.problem import Candidate, Placing
+from discrepancy.problem import Candidate, Places, Placing
 
 # Chi-squares of two starts that show the same, one over the other less 1.
 ALIKE = 1e-6
@@ -25,8 +25,10 @@ SURELY = 25.0
 LEFT = 1.0
 # So often a walk along a valley begins anew, each time where it is better.
 MOST_WALKS = 5
+# Of places that look alike so many are tried in earnest.
+MOST_OTHERS = 2
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
-AGAIN = 3
+AGAIN = 4
 
 
 def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
@@ -234,15 +236,26 @@ class Refits:
         return result if chosen == 0 else replace(result, fit=begun[chosen])
 
     def otherwise(self, result: Refit) -> Refit:
-        """The refit with what the model has placed at the other place that looks alike, if something may be left of the misfit."""
+        """The refit with what the model has placed at another place that looks alike, the first that is better, if something may be left of the misfit."""
         model, fit = self.space.model, result.fit
         if not isinstance(model, Placing) or fit.chi2 < LEFT * len(fit.residual):
             return result
-        places = model.otherwise(fit.values)
-        if not places:
-            return result
-        start = replace(fit, values={**fit.values, **places})
-        return finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
+        predictions, before = self.space.predictions, model.places(self.space.predictions.active(fit.values))
+
+        def promised(other: tuple[dict[str, float], Places]) -> float:
+            """Chi-square after one linear step of all that is fitted: what looks alike is bent alike."""
+            values = {**fit.values, **other[0]}
+            predictions.put(values, other[1])
+            return left_of(self.space.residual(values), fit.jacobian)
+
+        for values, places in sorted(model.otherwise(predictions.active(fit.values)), key=promised)[:MOST_OTHERS]:
+            start = replace(fit, values={**fit.values, **values})
+            predictions.put(start.values, places)
+            other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
+            if other.fit.chi2 < fit.chi2 - BETTER:
+                return other
+        predictions.put(fit.values, before)
+        return result
 
     def seen(self, result: Refit) -> Refit:
         """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
