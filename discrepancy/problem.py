@@ -243,8 +243,12 @@ class Placing(Protocol):
         """Records of which nobody says where they were taken, and for which no place was found beside the effects in ``values`` either."""
         ...
 
-    def otherwise(self, values: Mapping[str, float]) -> list[tuple[dict[str, float], Places]]:
-        """Nuisances and places of what was found beside the effects in ``values`` at other places that look alike."""
+    def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
+        """The nuisances that place what was found beside the effects in ``values`` at the other place that looks alike; none where there is none."""
+        ...
+
+    def elsewhere(self, values: Mapping[str, float]) -> list[Places]:
+        """``places`` with something at further places that look nearly alike."""
         ...
 
     def places(self, values: Mapping[str, float]) -> Places:

@@ -107,16 +107,17 @@ class PlacedBeside:
         places = self.unstated_places.taken(self.effects_in(values), values)
         return [i for i, record in enumerate(self.records) if is_unplaced(record) and record.condition not in places]
 
-    def otherwise(self, values: Mapping[str, float]) -> list[tuple[dict[str, float], Places]]:
-        """See ``problem.Placing``: inputs whose place was found are locked in another turn of the cranks, or where the discs have changed places."""
+    def otherwise(self, values: Mapping[str, float]) -> dict[str, float]:
+        """See ``problem.Placing``: inputs whose place was found are locked where the discs have changed places."""
+        every = self.standing() | dict(values)
+        return self.unstated_places.half_a_turn_on(self.cages.effects(every), every, partial(self.loop_at, every))
+
+    def elsewhere(self, values: Mapping[str, float]) -> list[Places]:
+        """See ``problem.Placing``: inputs whose place was found are locked in another turn of the cranks."""
         every, here = self.standing() | dict(values), self.places(values)
-        effects, loop_at = self.cages.effects(every), partial(self.loop_at, every)
         k = [places is self.unstated_places.found for places in self.found_beside()].index(True)
-        turns = self.unstated_places.in_other_turns(effects, every, loop_at)
-        found: list[tuple[dict[str, float], Places]] = [({}, (*here[:k], turn, *here[k + 1 :])) for turn in turns]
-        if half := self.unstated_places.half_a_turn_on(effects, every, loop_at):
-            found.append((half, here))
-        return found
+        turns = self.unstated_places.in_other_turns(self.cages.effects(every), every, partial(self.loop_at, every))
+        return [(*here[:k], turn, *here[k + 1 :]) for turn in turns]
 
     def places(self, values: Mapping[str, float]) -> Places:
         """See ``problem.Placing``."""

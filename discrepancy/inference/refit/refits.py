@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
@@ -240,15 +241,11 @@ class Refits:
         model, fit = self.space.model, result.fit
         if not isinstance(model, Placing) or fit.chi2 < LEFT * len(fit.residual):
             return result
-        predictions, before = self.space.predictions, model.places(self.space.predictions.active(fit.values))
-
-        def promised(other: tuple[dict[str, float], Places]) -> float:
-            """Chi-square after one linear step of all that is fitted: what looks alike is bent alike."""
-            values = {**fit.values, **other[0]}
-            predictions.put(values, other[1])
-            return left_of(self.space.residual(values), fit.jacobian)
-
-        for values, places in sorted(model.otherwise(predictions.active(fit.values)), key=promised)[:MOST_OTHERS]:
+        predictions = self.space.predictions
+        active = predictions.active(fit.values)
+        before, half = model.places(active), model.otherwise(active)
+        others = [({}, places) for places in self.promising(fit, model.elsewhere(active))] + [(half, before)] * bool(half)
+        for values, places in others:
             start = replace(fit, values={**fit.values, **values})
             predictions.put(start.values, places)
             other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
@@ -256,6 +253,17 @@ class Refits:
                 return other
         predictions.put(fit.values, before)
         return result
+
+    def promising(self, fit: Fit, others: Sequence[Places]) -> list[Places]:
+        """Those places at which a fit would be better after one linear step of all that is fitted, the most promising first: what looks nearly alike is
+        bent alike."""
+
+        def promised(places: Places) -> float:
+            self.space.predictions.put(fit.values, places)
+            return left_of(self.space.residual(fit.values), fit.jacobian)
+
+        found = sorted((promised(places), k) for k, places in enumerate(others))
+        return [others[k] for chi2, k in found[:MOST_OTHERS] if chi2 < fit.chi2 - BETTER]
 
     def seen(self, result: Refit) -> Refit:
         """The refit where it stands, with predictions as they are reported: what tells whether it is worth a fit in earnest."""
