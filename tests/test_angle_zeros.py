@@ -29,8 +29,8 @@ def test_a_zero_is_found_wherever_it_is(name, waves):
         factors = {"speed": at.speed, "load": at.load, "temperature": at.temperature}
         record = Record("run", "transmission_error", "rad", "a", 1, values, {"angle": angles}, factors, stated_noise=1e-7)
         model = PhysicalModel(ModelFile(name, reducer), replace(campaign(), reducer=reducer, records=(record,)))
-        # Of places that are looked at.
-        assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=1.1 * 2.0 * np.pi / waves / 48)
+        # Between the places that are looked at: an input locked at a place that counts from there is off by it times the ratio.
+        assert model.zeros["angle_zero[1]"] == pytest.approx(zero, abs=0.15 * 2.0 * np.pi / waves / 48)
 
 
 def test_beside_a_large_effect_a_zero_is_found_by_the_pattern_alone():

@@ -270,7 +270,7 @@ def test_a_further_effect_that_gains_by_other_places_alone_is_none(monkeypatch, 
         def unplaced(self):
             return [0]
 
-        placed_anew = unseen = otherwise = waves_on = unplaced
+        placed_anew = unseen = otherwise = elsewhere = waves_on = unplaced
 
     def fitted(space, fit, chosen):
         return SimpleNamespace(chi2=1.0 if (gained_by, places["a"]) == ("place", "there") else 50.0, values=fit.values, residual=[]), np.zeros((1, 1))
@@ -287,6 +287,21 @@ def test_a_further_effect_that_gains_by_other_places_alone_is_none(monkeypatch, 
     assert places["a"] == kept
     assert (better.fit.chi2, better.fit.values) == ((1.0, {"a": 2.1}) if kept == "there" else (50.0, {"a": 2.0}))
     assert refits.final_fits[frozenset("a")] is better
+
+
+def test_of_places_that_look_alike_those_are_fitted_that_promise_more():
+    """After one linear step of what is fitted: at the second place all of the misfit goes, at the third nothing."""
+    column, rest = np.eye(4)[:, :1], np.eye(4)[:, 1]
+    residual = {"now": 3.0 * rest, "near": 2.0 * column[:, 0] + rest, "far": 9.0 * rest}
+
+    class Placed:
+        def put(self, values, there):
+            self.there = there
+
+    placed = Placed()
+    refits = Refits(SimpleNamespace(predictions=placed, residual=lambda values: residual[placed.there], model=None), [])
+    fit = SimpleNamespace(chi2=9.0, values={"a": 1.0}, jacobian=column)
+    assert refits.promising(fit, ["far", "near", "now"]) == ["near"]
 
 
 def test_a_part_that_is_counted_is_tried_where_it_is_one():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from discrepancy.campaign.load import load_campaign
+from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import LAG_SHARE
@@ -89,6 +90,14 @@ def test_share_of_the_lag_moves_the_places(folder):
     base = model.predict_beside({LAG_SHARE: 1.0}, {LAG_SHARE: 1.0}, which)
     for a, b, c, d in zip(beside, base, model.predict({LAG_SHARE: 1.05}), model.predict({LAG_SHARE: 1.0})):
         assert np.std((a - b) - (c - d)) < 0.1 * np.std(c - d)
+
+
+def test_one_load_leaves_the_lag_where_it_is(folder):
+    """It tells lag and zero of the angles together: they went anywhere, and inputs locked at places that count from there with them."""
+    space = Workspace(model_of(folder, OF_OUTPUT))
+    space.training = [1]
+    space.fit_base()
+    assert space.base.values[LAG_SHARE] == pytest.approx(1.0, abs=0.3)
 
 
 def test_an_angle_of_the_input_that_is_stated_as_the_output_s_has_no_lag(folder):

@@ -42,7 +42,7 @@ class Bench:
     def unplaced(self):
         return self.places_unknown
 
-    placed_anew = otherwise = waves_on = places = put = unplaced
+    placed_anew = otherwise = elsewhere = waves_on = places = put = unplaced
 
 
 def fitting(candidate, start):

@@ -13,7 +13,7 @@ from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.prediction.unstated_places import UnstatedPlaces, fewer_samples, locked
+from discrepancy.prediction.unstated_places import MOST_TURNS, UnstatedPlaces, fewer_samples, locked
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
 
@@ -87,6 +87,19 @@ def test_the_other_place_that_looks_alike_is_half_a_turn_of_the_cranks_on(bench)
     [limit] = [p.upper for p in places.parameters()]
     assert all(abs(moved) <= limit for moved in other.values())
     assert places.half_a_turn_on(frozenset(), {}, predicted(bench)) == {}
+
+
+def test_other_turns_of_the_cranks_are_told_where_the_ring_makes_them_differ(bench):
+    """Three lobes of a ring show nearly the same thirteen turns on, and half a one: the true place is among those that are looked at closely."""
+    there = math.radians(700.0)
+    loop, places = places_of(bench, there)
+    places.found[OVAL] = {"c": there + 13.0 * PERIOD}
+    turns = places.in_other_turns(OVAL, {}, predicted(bench))
+    assert 1 < len(turns) <= MOST_TURNS
+    assert min(abs(math.remainder(turn["c"] - there, 121.0 * 2.0 * math.pi)) for turn in turns) < math.radians(8.0)
+    # Without an effect of the ring all turns are alike, and without a place there is none.
+    plain = lambda record, place: OverTorque(bench, record if place is None else locked(record, place)).directly({})
+    assert places.in_other_turns(OVAL, {}, plain) == [] == places.in_other_turns(frozenset(), {}, predicted(bench))
 
 
 def test_the_same_effect_at_another_part_is_tried_with_the_places_of_the_first(bench):

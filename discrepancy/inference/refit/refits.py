@@ -29,7 +29,7 @@ MOST_WALKS = 5
 # Of places that look alike so many are tried in earnest.
 MOST_OTHERS = 2
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
-AGAIN = 4
+AGAIN = 3
 
 
 def in_order(found: Refit, candidates: Sequence[Candidate]) -> Refit:
@@ -244,8 +244,8 @@ class Refits:
         predictions = self.space.predictions
         active = predictions.active(fit.values)
         before, half = model.places(active), model.otherwise(active)
-        others = [({}, places) for places in self.promising(fit, model.elsewhere(active))] + [(half, before)] * bool(half)
-        for values, places in others:
+        others: list[tuple[dict[str, float], Places]] = [({}, places) for places in self.promising(fit, model.elsewhere(active))]
+        for values, places in others + [(half, before)] * bool(half):
             start = replace(fit, values={**fit.values, **values})
             predictions.put(start.values, places)
             other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
