@@ -7,13 +7,14 @@ import pytest
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.base_fit.workspace import Workspace
+from discrepancy.inference.refit.refit import covariance_of
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import LAG_SHARE
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.over_angle import OverAngle
-from discrepancy.prediction.physical_model import PhysicalModel
+from discrepancy.prediction.physical_model import LAG_KNOWN, PhysicalModel
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.faults import InputFault
@@ -97,7 +98,8 @@ def test_one_load_leaves_the_lag_where_it_is(folder):
     space = Workspace(model_of(folder, OF_OUTPUT))
     space.training = [1]
     space.fit_base()
-    assert space.base.values[LAG_SHARE] == pytest.approx(1.0, abs=0.3)
+    k = space.base.names.index(LAG_SHARE)
+    assert space.base.values[LAG_SHARE] == pytest.approx(1.0, abs=0.3) and covariance_of(space.base)[k, k] == pytest.approx(LAG_KNOWN**2, rel=0.05)
 
 
 def test_an_angle_of_the_input_that_is_stated_as_the_output_s_has_no_lag(folder):
