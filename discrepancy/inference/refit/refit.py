@@ -25,6 +25,8 @@ WIDEST = 1e4
 """Range of a parameter without bounds, in its scales."""
 LEAST_SHARE = 1e-2
 """Of a valley: what moves less is not in it."""
+ROUNDING = 1e-9
+"""Of a typical size: what is nearer to off is off but for what a solver leaves."""
 ALLOWED, HALVINGS = 4.0, 5
 """Chi-square by which a fit along a valley may be worse (two standard deviations), and how often a bent one is tried half as far."""
 
@@ -131,16 +133,17 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
     for k, p in enumerate(fit.parameters):
         if not any(p is q for q in result.own):
             continue
+        # Off but for what a solver leaves is off.
+        value = p.off if abs(fit.values[p.name] - p.off) < ROUNDING * p.scale else fit.values[p.name]
         if is_untold(fit, k):
             # The data say nothing about it: the interval is its range.
             without = fit.normal[k, k] * p.scale**2 < UNDETERMINED
             dof = 1.0 if without else effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
-            estimated.append(Estimate(p.name, p.unit, fit.values[p.name], float("inf"), (p.lower, p.upper), dof, False, p.is_direction))
+            estimated.append(Estimate(p.name, p.unit, value, float("inf"), (p.lower, p.upper), dof, False, p.is_direction))
             continue
         deviation = float(np.sqrt(max(result.covariance[k, k], 0.0))) * inflation
         dof = effective_dof(space, {c: float(g[k, k]) for c, g in grams.items()})
         half = stdtrit(dof, 0.5 + coverage / 2) * deviation
-        value = fit.values[p.name]
         shape = not any(p is a for c in result.candidates for a in c.amplitudes)
         if shape and p.lower > 0 and value > 0:
             # Nothing is told beyond its bounds.
