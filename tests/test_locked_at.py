@@ -12,6 +12,7 @@ import rvwear
 from benchmarks.locked_position import departure, loops
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
+from discrepancy.compare import compare
 from discrepancy.doubts.locked_doubts import locked_doubts
 from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.bench import Bench
@@ -226,6 +227,15 @@ def test_a_loop_at_one_position_is_met_where_it_is_stated(tmp_path):
     # The error of a mean over positions is none of it.
     assert "model_error[hysteresis]" in [p.name for p in unstated.nuisances]
     assert "model_error[hysteresis]" not in [p.name for p in stated.nuisances]
+
+
+def test_stated_places_that_nothing_ties_to_the_model_are_told_where_they_do_not_fit(tmp_path):
+    """Degrees of whose zero nobody knows: a sound reducer locked elsewhere looked like worn races, a profile and shifted holes, without a word."""
+    model = load_model("RV20E-121")
+    here, there = (compare(model, looped(tmp_path / at, 0.005, f'locked_at = "{at} deg"')) for at in ("0", "130"))
+    untied = "counted from the model's own 0"
+    assert sum(untied in text and "another position" in text for text in there.warnings) == 1
+    assert not any(untied in text for text in here.warnings)
 
 
 def test_a_kept_model_knows_its_records_where_they_are_now(tmp_path):

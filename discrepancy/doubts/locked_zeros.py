@@ -10,13 +10,17 @@ from discrepancy.held_names import LOCKED_AT
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.prediction.conditions import angle_zero
+from discrepancy.prediction.locked_places import has_place
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import ERROR, ORDERS
+from fmu_src.arrays import Floats
 
 # Of the input [deg]: nearer to the model's zero a place shows as where it is stated.
 TURNED = 5.0
 # Root mean square, over the noise, of what a fit leaves of transmission errors: from more its zero may be another once the misfit is explained.
 UNFIT = 1.5
+# Standard deviations of a chi-square by which more than noise is left.
+SEEN = 3.0
 # So near to a bound [deg of the output] a zero stands at it.
 AT_BOUND = 1e-4
 
@@ -25,7 +29,24 @@ def zero_texts(model: PhysicalModel, space: Workspace, fit: Fit) -> list[str]:
     """A sentence for each mounting in which curves and stated positions of the input count from one zero that ``fit`` has far from the model's, and for
     each zero at a bound that the campaign states."""
     found = [zero_text(name, at, left_of(space, fit, name) > UNFIT, model.unstated_places.period) for name, at in positions_at_zero(model, fit).items()]
-    return [text for text in (*found, *bound_texts(model, fit)) if text]
+    return [text for text in (*found, *bound_texts(model, fit), *untied_texts(space)) if text]
+
+
+def untied_texts(space: Workspace) -> list[str]:
+    """A sentence for each mounting of which inputs were locked at stated places that nothing ties to the model, if the base model leaves something of their
+    loops: what is named may be another place."""
+    tied = {angle_zero(r) for r in space.records if r.quantity in (ERROR, ORDERS)}
+    squares: dict[str, list[Floats]] = {}
+    for i, rows in space.rows.items():
+        if has_place(space.records[i]) and angle_zero(space.records[i]) not in tied:
+            squares.setdefault(angle_zero(space.records[i]), []).append(space.base.residual[rows] ** 2)
+    left = {name: np.concatenate(parts) for name, parts in squares.items()}
+    return [
+        f"where the input was locked is counted from the model's own 0 (an eccentric of disc 1 points at crank 1), for no transmission error of mounting"
+        f" {mounting_of(name)} tells another: what is named may be another position; unless 0 was there, leave out {LOCKED_AT} (a diagnosis then weighs the"
+        " position, too), or add a transmission error over the same angle"
+        for name, found in left.items() if found.mean() > 1.0 + SEEN * np.sqrt(2.0 / len(found))
+    ]  # fmt: skip
 
 
 def bound_texts(model: PhysicalModel, fit: Fit) -> list[str]:
