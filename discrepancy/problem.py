@@ -37,6 +37,8 @@ def effect_of(name: str) -> str:
     return name.partition(".")[0]
 
 
+# Of a typical size: what a solver leaves of a number that is off.
+ROUNDING = 1e-9
 # Bounds of an angle [rad] that are so far apart are those of a direction, where a gear or a wave stands; errors of angles are far smaller.
 WIDE = 1.5
 
@@ -155,6 +157,10 @@ class Parameter:
     description: str = ""
     of_base: bool = False
     counts: bool = False
+
+    def is_off(self, value: float) -> bool:
+        """Whether a value is ``off``, but for what a solver leaves."""
+        return abs(value - self.off) <= ROUNDING * self.scale
 
     @property
     def is_direction(self) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 from discrepancy.alike.other_places import as_shown
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.directions import half_a_turn_on
-from discrepancy.inference.refit.refit import ROUNDING, Refit
+from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import STOPPED, Diagnosis
 from discrepancy.problem import Candidate
 
@@ -48,7 +48,7 @@ def others_of(member: Refit, space: Workspace) -> dict[str, float]:
 
 def opposite_of(candidate: Candidate, fitted: Mapping[str, float]) -> dict[str, float]:
     """All amplitudes of an effect that are not off, the other way round; none where one of them can only go one way."""
-    amplitudes = [p for p in candidate.amplitudes if abs(fitted[p.name] - p.off) > ROUNDING * p.scale]
+    amplitudes = [p for p in candidate.amplitudes if not p.is_off(fitted[p.name])]
     opposite = {p.name: 2.0 * p.off - fitted[p.name] for p in amplitudes}
     return {} if any(p.sign or not p.lower <= opposite[p.name] <= p.upper for p in amplitudes) else opposite
 

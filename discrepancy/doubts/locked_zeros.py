@@ -1,6 +1,7 @@
 """Where inputs were locked, counted from a zero of angles that a fit has found: what is said of it beside the base model and beside what is named."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.prediction.conditions import angle_zero
 from discrepancy.prediction.locked_places import has_place
 from discrepancy.prediction.physical_model import PhysicalModel
-from discrepancy.problem import ERROR, ORDERS
+from discrepancy.problem import ERROR, ORDERS, Record
 from fmu_src.arrays import Floats
 
 # Of the input [deg]: nearer to the model's zero a place shows as where it is stated.
@@ -36,16 +37,13 @@ def untied_texts(space: Workspace) -> list[str]:
     """A sentence for each mounting of which inputs were locked at stated places that nothing ties to the model, if the base model leaves something of their
     loops: what is named may be another place."""
     tied = {angle_zero(r) for r in space.records if r.quantity in (ERROR, ORDERS)}
-    squares: dict[str, list[Floats]] = {}
-    for i, rows in space.rows.items():
-        if has_place(space.records[i]) and angle_zero(space.records[i]) not in tied:
-            squares.setdefault(angle_zero(space.records[i]), []).append(space.base.residual[rows] ** 2)
-    left = {name: np.concatenate(parts) for name, parts in squares.items()}
+    stated = sorted({angle_zero(r) for r in space.records if has_place(r)} - tied)
+    squares = {name: residual_of(space, space.base, name, has_place) ** 2 for name in stated}
     return [
         f"where the input was locked is counted from the model's own 0 (an eccentric of disc 1 points at crank 1), for no transmission error of mounting"
         f" {mounting_of(name)} tells another: what is named may be another position; unless 0 was there, leave out {LOCKED_AT} (a diagnosis then weighs the"
         " position, too), or add a transmission error over the same angle"
-        for name, found in left.items() if found.mean() > 1.0 + SEEN * np.sqrt(2.0 / len(found))
+        for name, left in squares.items() if len(left) and left.mean() > 1.0 + SEEN * np.sqrt(2.0 / len(left))
     ]  # fmt: skip
 
 
@@ -72,8 +70,14 @@ def zeros_told(model: PhysicalModel, fit: Fit) -> dict[str, float]:
 
 def left_of(space: Workspace, fit: Fit, name: str) -> float:
     """Root mean square, over the noise, of what ``fit`` leaves of the transmission errors that tell the zero ``name``."""
-    rows = [fit.residual[rows] for i, rows in space.rows.items() if space.records[i].quantity in (ERROR, ORDERS) and angle_zero(space.records[i]) == name]
-    return float(np.sqrt(np.mean(np.concatenate(rows) ** 2))) if rows else 0.0
+    left = residual_of(space, fit, name, lambda record: record.quantity in (ERROR, ORDERS))
+    return float(np.sqrt(np.mean(left**2))) if len(left) else 0.0
+
+
+def residual_of(space: Workspace, fit: Fit, name: str, of: Callable[[Record], bool]) -> Floats:
+    """(n,) What ``fit`` leaves, over the noise, of such records whose angles or positions count from the zero ``name``."""
+    return np.concatenate([np.zeros(0), *(fit.residual[rows] for i, rows in space.rows.items()
+                                          if of(space.records[i]) and angle_zero(space.records[i]) == name)])  # fmt: skip
 
 
 def zero_text(name: str, turned: float, unfit: bool, period: float) -> str:

@@ -56,7 +56,7 @@ def angle_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record
         # Beside a large effect the pattern is a small part of all misfit: then it counts what its place changes in itself, if noise could not.
         elsewhere = more > OF_PATTERN * float(np.var(found[best])) and gain(left[PHASES // 2], left[best]) > SURELY
         if more > OF_MISFIT * least or elsewhere or always or name in (known or {}):
-            zeros[name] = bounds.held(between_looks(shifts, misfits))
+            zeros[name] = bounds.held(between(shifts, misfits, best))
     return zeros
 
 
@@ -69,7 +69,7 @@ def place_in_turn(bench: Bench, record: Record, own: dict[str, float], wave: flo
     # Where many are alike, those about the middle, too: a nearest one is among them.
     middle = int(np.argmin(np.abs(shifts.mean(axis=1) - near)))
     likely = {*np.argsort(misfits.min(axis=1))[:LIKELY].tolist(), *range(max(middle - NEAREST, 0), min(middle + NEAREST + 1, len(shifts)))}
-    places = {k: bounds.held(between(shifts[k], misfits[k])) for k in sorted(likely)}
+    places = {k: bounds.held(between(shifts[k], misfits[k], int(np.argmin(misfits[k][1:-1])) + 1)) for k in sorted(likely)}
     left = {k: record.values - predicted_at(bench, record, own, at) for k, at in places.items()}
     best = min(left, key=lambda k: misfit(record, left[k]))
     # Rollers, whose cages are not placed yet, make some difference, too: nothing else may tell places apart.
@@ -122,16 +122,10 @@ def predicted_at(bench: Bench, record: Record, own: dict[str, float], zero: floa
     return orders_shown(record, shown) if record.quantity == ORDERS else shown
 
 
-def between(places: Floats, misfits: Floats) -> float:
-    """Where the least of ``misfits`` at even ``places`` would be: of a parabola through three of them."""
-    k = int(np.argmin(misfits[1:-1])) + 1
-    return float(places[k] + vertex(*misfits[k - 1 : k + 2]) * (places[1] - places[0]))
-
-
-def between_looks(places: Floats, misfits: Sequence[float]) -> float:
-    """The same next to the least of all, at the ends, too: a wave follows the other, and beyond ``ZeroBounds`` nobody looks."""
-    best = int(np.argmin(misfits))
-    return float(places[best] + vertex(*(misfits[(best + k) % len(misfits)] for k in (-1, 0, 1))) * (places[1] - places[0]))
+def between(places: Floats, misfits: Sequence[float] | Floats, k: int) -> float:
+    """Where the least of ``misfits`` at even ``places``, the ``k``-th, would be: of a parabola through three of them.  Behind the last comes the first: places
+    in a wave follow each other so, and beyond ``ZeroBounds`` nobody looks."""
+    return float(places[k] + vertex(*(misfits[(k + step) % len(misfits)] for step in (-1, 0, 1))) * (places[1] - places[0]))
 
 
 def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record: Callable[[Record, Mapping[str, float]], dict[str, float]],
@@ -143,7 +137,7 @@ def best_zeros(bench: Bench, records: Sequence[Record], wave: float, for_record:
         if name in names:
             misfits = [misfit(record, e) / misfit(record, record.values) for e in shown_at(bench, record, for_record(record, values), shifts)[1]]
             best = int(np.argmin(misfits))
-            zeros[name], whole = bounds.held(between_looks(shifts, misfits)), whole + misfits[best]
+            zeros[name], whole = bounds.held(between(shifts, misfits, best)), whole + misfits[best]
     return whole, zeros
 
 

@@ -114,10 +114,9 @@ class PlacedBeside:
 
     def elsewhere(self, values: Mapping[str, float]) -> list[Places]:
         """See ``problem.Placing``: inputs whose place was found are locked in another turn of the cranks."""
-        every, here = self.standing() | dict(values), self.places(values)
-        k = [places is self.unstated_places.found for places in self.found_beside()].index(True)
+        every, here = self.standing() | dict(values), list(zip(self.found_beside(), self.places(values)))
         turns = self.unstated_places.in_other_turns(self.cages.effects(every), every, partial(self.loop_at, every))
-        return [(*here[:k], turn, *here[k + 1 :]) for turn in turns]
+        return [tuple(turn if found is self.unstated_places.found else there for found, there in here) for turn in turns]
 
     def places(self, values: Mapping[str, float]) -> Places:
         """See ``problem.Placing``."""

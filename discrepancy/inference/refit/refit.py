@@ -25,8 +25,6 @@ WIDEST = 1e4
 """Range of a parameter without bounds, in its scales."""
 LEAST_SHARE = 1e-2
 """Of a valley: what moves less is not in it."""
-ROUNDING = 1e-9
-"""Of a typical size: what is nearer to off is off but for what a solver leaves."""
 ALLOWED, HALVINGS = 4.0, 5
 """Chi-square by which a fit along a valley may be worse (two standard deviations), and how often a bent one is tried half as far."""
 
@@ -133,8 +131,7 @@ def estimates(space: Workspace, result: Refit, coverage: float = 0.95, inflation
     for k, p in enumerate(fit.parameters):
         if not any(p is q for q in result.own):
             continue
-        # Off but for what a solver leaves is off.
-        value = p.off if abs(fit.values[p.name] - p.off) < ROUNDING * p.scale else fit.values[p.name]
+        value = p.off if p.is_off(fit.values[p.name]) else fit.values[p.name]
         if is_untold(fit, k):
             # The data say nothing about it: the interval is its range.
             without = fit.normal[k, k] * p.scale**2 < UNDETERMINED

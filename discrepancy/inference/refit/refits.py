@@ -1,7 +1,7 @@
 """The refits of one diagnosis, each made once: roughly while effects are looked for, in earnest for what is reported."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -194,10 +194,9 @@ class Refits:
             self.settle(key, better)
             better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
         for _ in range(AGAIN):
-            other = self.otherwise(better)
-            if other.fit.chi2 > better.fit.chi2 - BETTER:
+            before, better = better, self.otherwise(better)
+            if better is before:
                 break
-            better = other
         self.gained[key] = max(roughly - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
@@ -243,9 +242,15 @@ class Refits:
             return result
         predictions = self.space.predictions
         active = predictions.active(fit.values)
-        before, half = model.places(active), model.otherwise(active)
-        others: list[tuple[dict[str, float], Places]] = [({}, places) for places in self.promising(fit, model.elsewhere(active))]
-        for values, places in others + [(half, before)] * bool(half):
+        before = model.places(active)
+
+        def others() -> Iterator[tuple[dict[str, float], Places]]:
+            yield from (({}, places) for places in self.promising(fit, model.elsewhere(active)))
+            predictions.put(fit.values, before)
+            if half := model.otherwise(active):
+                yield half, before
+
+        for values, places in others():
             start = replace(fit, values={**fit.values, **values})
             predictions.put(start.values, places)
             other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
