@@ -26,8 +26,8 @@ SURELY = 25.0
 LEFT = 1.0
 # So often a walk along a valley begins anew, each time where it is better.
 MOST_WALKS = 5
-# Of places that look alike so many are tried in earnest.
-MOST_OTHERS = 2
+# Of places that look alike so many are tried in earnest; a fit that is better at one of them tells more of the next, and goes on so often.
+MOST_OTHERS, MOST_MOVES = 2, 6
 # What is placed beside an effect may move with its fit, and the fit with that: so often it follows.
 AGAIN = 3
 
@@ -193,7 +193,7 @@ class Refits:
                 break
             self.settle(key, better)
             better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
-        for _ in range(AGAIN):
+        for _ in range(MOST_MOVES):
             before, better = better, self.otherwise(better)
             if better is before:
                 break
