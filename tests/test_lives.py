@@ -5,11 +5,12 @@ import pytest
 
 from discrepancy.model_file import load_model
 from discrepancy.prediction import lives, model_error
-from discrepancy.prediction.bench import QUARTER, Bench
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.conditions import at_rest
 from discrepancy.prediction.lives import ROUGH_CYCLE, SHORT_CYCLE
-from discrepancy.prediction.observe import OBSERVED, standard_test, surface_of
+from discrepancy.prediction.observe import OBSERVED, surface_of
+from discrepancy.prediction.standard_test import WAY
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from studies.hysteresis import LOST_MOTION_SHARE
@@ -73,7 +74,7 @@ def test_the_print_of_a_standing_pin_is_that_of_full_cycles(bench, turns):
 def test_lost_motion_without_friction_is_that_of_the_whole_loop(bench, hours):
     values = {"needle_clearance_added": 1e-6}
     at = Condition(bench.rated_speed, bench.rated_load, hours=hours)
-    torques = bench.rated_load * standard_test(QUARTER.tobytes())[0]
+    torques = bench.rated_load * WAY
     turning = bench.held(at_rest(bench, at), values, torques)
     middle = [np.mean(turning[np.isclose(torques, side * LOST_MOTION_SHARE * bench.rated_load)]) for side in (1.0, -1.0)]
     found = OBSERVED["lost_motion"](bench, record("lost_motion", hours=[hours], surface=""), values)[0]

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from discrepancy.prediction.bench import QUARTER, Bench
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.conditions import at_rest
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.held import HELD_ANGLES
 from discrepancy.prediction.lives import SHORT_CYCLE
 from discrepancy.prediction.observe import coarse_lost_motion_change, lost_motion, lost_motion_at, middle_lines
 from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change
+from discrepancy.prediction.standard_test import both_ways
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
@@ -31,17 +32,27 @@ def test_mean_over_positions_errs_by_no_more_than_its_halves_differ(reducer):
     assert off <= np.abs(bench.held_halves(condition, torques)).max()
 
 
-def test_lost_motion_under_friction_needs_few_torques():
-    """Few show what hundred do; of a change, for a search, still fewer do."""
-    bench = Bench(load_reducer("RV20E-121"), {})
-    condition, values = Condition(speed=bench.rated_speed, load=bench.rated_load), {"equidistant_added": -3e-6, "shift_added": -3e-6}
-    many = np.union1d(np.linspace(0.0, 1.0, 61), QUARTER)
-    true, true_base = (middle_lines(bench, condition, v, many) for v in (values, {}))
-    assert lost_motion_at(bench, condition, {}) == pytest.approx(true_base, rel=0.005)
-    assert lost_motion_at(bench, condition, values) - lost_motion_at(bench, condition, {}) == pytest.approx(true - true_base, rel=0.02)
-    rough = bench.rougher
-    assert lost_motion_at(rough, condition, {}) == lost_motion_at(bench, condition, {})
-    assert lost_motion_at(rough, condition, values) - lost_motion_at(rough, condition, {}) == pytest.approx(true - true_base, rel=0.1)
+@pytest.mark.parametrize("name", ["RV20E-121", "BX-40E"])
+def test_lost_motion_under_friction_needs_few_torques(name):
+    """Few show what hundreds do; of a change, for a search, still fewer do."""
+    bench = Bench(load_reducer(name), {})
+    condition = Condition(speed=bench.rated_speed, load=bench.rated_load)
+    quarter = np.union1d(np.linspace(0.0, 1.0, 61), [0.01, 0.02, 0.03])
+    many = both_ways([*quarter[-2::-1], *-quarter[1:]])
+
+    def change(bench, values):
+        return lost_motion_at(bench, condition, values) - lost_motion_at(bench, condition, {})
+
+    true_base = middle_lines(bench, condition, {}, many)
+    assert lost_motion_at(bench, condition, {}) == pytest.approx(true_base, rel=0.001)
+    assert lost_motion_at(bench.rougher, condition, {}) == lost_motion_at(bench, condition, {})
+    for values in ({"equidistant_added": -3e-6, "shift_added": -3e-6}, {"needle_clearance_added": 1.5e-6}):
+        true = middle_lines(bench, condition, values, many) - true_base
+        assert change(bench, values) == pytest.approx(true, rel=0.01)
+        assert change(bench.rougher, values) == pytest.approx(true, rel=0.1)
+    # Friction hardly shows in the middle lines.
+    doubled = {"friction_coefficient": 2.0 * bench.starts[0]["friction_coefficient"]}
+    assert lost_motion_at(bench, condition, doubled) == pytest.approx(middle_lines(bench, condition, doubled, many), rel=0.005)
 
 
 def test_few_samples_of_a_loop_under_friction_lie_on_the_way_that_the_drive_has_gone():

@@ -7,18 +7,16 @@ import copy
 from collections.abc import Mapping
 from functools import cached_property
 
-import numpy as np
-
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.held import HELD_ANGLES, Held
 from discrepancy.prediction.lives import ROUGH_CYCLE
 from discrepancy.prediction.running import MEAN_POSITIONS, Running
+from discrepancy.prediction.standard_test import FEW, WAY
 from discrepancy.prediction.stations import Stations
 from discrepancy.prediction.twins import Twins
 from discrepancy.problem import ERROR, ORDERS, Record
 from fmu_src.threads import Once, Threads
 from reducers.reducer import Reducer
-from studies.hysteresis import LOST_MOTION_SHARE
 from wear_fmu.variables import Resolution
 
 # Surfaces are resolved as finely as inspections need, not as finely as a life run.
@@ -26,9 +24,6 @@ RESOLUTION = Resolution(flank=90, pin=90, raceway=180)
 # What values change in a mean over a turn, roughly, is seen within 1 % from seven positions; in a held test from five as much as from eight, whose symmetry
 # is that of the pins (three err by a tenth).
 FEW_MEAN_POSITIONS, FEW_HELD_ANGLES = 7, 5
-# Torques of the standard test's quarter, of the rated one: lost motion is within 0.3 % of that of a hundred even steps; what values
-# change in it, roughly, is seen within a tenth from fewer.
-QUARTER, FEW_OF_QUARTER = np.array([0.0, 0.01, 0.02, LOST_MOTION_SHARE, 0.06, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, 0.015, LOST_MOTION_SHARE, 0.06, 1.0])
 # Longest step of torque, of the rated one, where the way to a place matters: a loop is within 0.03 arcsec, and roughly so, within a tenth of what is changed.
 TORQUE_STEP, ROUGH_TORQUE_STEP = 1.0 / 80.0, 1.0 / 16.0
 # Runs that a search keeps: the last ones, and those beside which they start.
@@ -40,7 +35,7 @@ class Bench(Running, Held):
 
     def __init__(self, reducer: Reducer, settings: Mapping[str, float], resolution: Resolution = RESOLUTION):
         super().__init__(reducer, settings, resolution)
-        self.held_angles, self.mean_positions, self.quarter, self.torque_step = HELD_ANGLES, MEAN_POSITIONS, QUARTER, TORQUE_STEP
+        self.held_angles, self.mean_positions, self.test_way, self.torque_step = HELD_ANGLES, MEAN_POSITIONS, WAY, TORQUE_STEP
         # By its name (``conditions.angle_zero``) the output angle [rad] of the model at which a mounting's angle is 0, if it is not 0.
         self.zeros: dict[str, float] = {}
         # How finely runs are computed for a campaign's samples; None: at every sample.
@@ -58,7 +53,7 @@ class Bench(Running, Held):
         other.__dict__["rougher"] = other
         other.fineness = self.fineness.roughly() if self.fineness else None
         other.held_angles, other.mean_positions, other.cycle_turns = FEW_HELD_ANGLES, FEW_MEAN_POSITIONS, ROUGH_CYCLE
-        other.quarter, other.torque_step = FEW_OF_QUARTER, ROUGH_TORQUE_STEP
+        other.test_way, other.torque_step = FEW, ROUGH_TORQUE_STEP
         return other
 
     def forgetful(self) -> "Bench":

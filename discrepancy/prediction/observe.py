@@ -2,18 +2,18 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from functools import lru_cache
 
 import numpy as np
 
 from discrepancy.held_names import HELD
-from discrepancy.prediction.bench import QUARTER, Bench
+from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.cage_ripples import cage_ripples, locked_ripples
 from discrepancy.prediction.conditions import Values, angles_of, at_rest, condition_of, held_condition, identity, row_conditions, zero_of
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.over_angle import OverAngle, error_change
 from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change, loop_change
+from discrepancy.prediction.standard_test import WAY, weights_of
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -108,33 +108,16 @@ def lost_motion_at(bench: Bench, condition: Condition, values: Values) -> float:
         # Wherever the torque came from.
         forward, backward = bench.held(at_rest(bench, condition), values, LOST_MOTION_SHARE * bench.rated_load * np.array([1.0, -1.0]))
         return float(forward - backward)
-    if bench.quarter is QUARTER or not bench.relevant(values, condition.hours > 0.0):
-        return middle_lines(bench, condition, values, QUARTER)
+    if bench.test_way is WAY or not bench.relevant(values, condition.hours > 0.0):
+        return middle_lines(bench, condition, values, WAY)
     # What the values change, roughly seen from fewer torques.
-    with_values, without = (middle_lines(bench, condition, v, bench.quarter) for v in (values, {}))
-    return middle_lines(bench, condition, {}, QUARTER) + with_values - without
+    with_values, without = (middle_lines(bench, condition, v, bench.test_way) for v in (values, {}))
+    return middle_lines(bench, condition, {}, WAY) + with_values - without
 
 
-def middle_lines(bench: Bench, condition: Condition, values: Values, quarter: Floats) -> float:
-    """Lost motion [rad] by the middle lines of the closed loop."""
-    way, weights = standard_test(quarter.tobytes())
-    return float(weights @ bench.held(at_rest(bench, condition), values, bench.rated_load * way))
-
-
-@lru_cache
-def standard_test(quarter: bytes) -> tuple[Floats, Floats]:
-    """Torques [rated torque] of the standard test, the first ``quarter`` run twice so that the loop is closed, and what each turning there adds to the
-    difference of the middle lines at +3 % and -3 %."""
-    up = np.frombuffer(quarter)
-    down = up[-2::-1]
-    way = np.concatenate([up, down, -up[1:], -down, up[1:]])
-    rising = np.concatenate([[False], np.diff(way) > 0.0])
-    weights = np.zeros(len(way))
-    for sign in (1.0, -1.0):
-        for branch in (np.flatnonzero(rising), np.flatnonzero(~rising)):
-            order = branch[np.argsort(way[branch], kind="stable")]
-            weights[order] += 0.5 * sign * np.array([np.interp(sign * LOST_MOTION_SHARE, way[order], one) for one in np.eye(len(order))])
-    return way, weights
+def middle_lines(bench: Bench, condition: Condition, values: Values, way: Floats) -> float:
+    """Lost motion [rad] by the middle lines of the closed loop along a ``way`` of torques [rated torque]."""
+    return float(weights_of(way.tobytes()) @ bench.held(at_rest(bench, condition), values, bench.rated_load * way))
 
 
 def torsional_stiffness(bench: Bench, record: Record, values: Values) -> Floats:
