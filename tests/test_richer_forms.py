@@ -1,6 +1,7 @@
 """Forms of the best effect that can do more than it are gone on with only where it leaves something."""
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 from test_confusable import rival
@@ -18,18 +19,10 @@ def form(name, chi2, parameters):
 THREE, ALL, OTHER = form("ring.three_lobes", 100.0, 1), form("ring.harmonics", 300.0, 5), form("lobes.first", 400.0, 5)
 
 
-def widened(fits):
-    tried = []
-
-    def told(what, function, items):
-        tried.extend(items)
-        return list(items)
-
-    alone = SimpleNamespace(settings=Settings(), tried=told, refits=SimpleNamespace(widened=print), near=lambda best: 0.0)
+def rivals(fits):
     for fit in fits:
         fit.fit.residual = [0.0] * 10
-    Alone.widely(alone, fits)
-    return tried
+    return Alone.rivals(SimpleNamespace(settings=Settings()), fits)
 
 
 def test_a_form_that_can_do_more_is_one_of_the_same_effect_with_more_numbers():
@@ -37,6 +30,14 @@ def test_a_form_that_can_do_more_is_one_of_the_same_effect_with_more_numbers():
 
 
 def test_other_starts_are_left_to_other_effects_and_to_simpler_forms():
-    assert widened([THREE, ALL]) == [THREE]
-    assert widened([THREE, OTHER]) == [THREE, OTHER]
-    assert widened([ALL, THREE]) == [ALL, THREE]
+    assert rivals([THREE, ALL]) == []
+    assert rivals([THREE, OTHER]) == [OTHER]
+    assert rivals([ALL, THREE]) == [THREE]
+    assert rivals([]) == []
+
+
+def test_far_behind_a_fit_that_leaves_nothing_no_other_start_is_tried():
+    close = partial(Alone.is_close, SimpleNamespace())
+    assert close(form("lobes.first", 190.0, 5), THREE) and not close(OTHER, THREE)
+    # Of a misfit a thousand times as large, rough predictions are off by more.
+    assert close(OTHER, replace(THREE, gain=1e6))

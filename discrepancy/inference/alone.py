@@ -27,7 +27,9 @@ WORTHWHILE = 0.05
 FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained (a tenth of the change, that squared; a thousandth is usual), and what a
 # linear estimate may.
-ROUGH, LINEAR = 0.01, 0.02
+ROUGH, LINEAR, USUALLY_ROUGH = 0.01, 0.02, 0.001
+# Chi-square by which a fit is so far behind one that leaves no more than noise that none of another start stands beside that (assumed).
+FAR = 100.0
 
 
 def few_of_each(scores: Sequence[Score]) -> list[Score]:
@@ -81,14 +83,17 @@ class Alone:
         # Of a large effect much is left until it is fitted in earnest.
         if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
             fits = self.along_valleys(fits, rates)
-        fits = self.widely(fits)
+        fits = self.widely(fits, fits[:1], fits[0])
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         if self.judgement.leftover(first[0])[0]:
             # What is dear to look for.
             more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())
             rest = sorted([*more, *fits[1:]], key=penalised)
-            fits = [fits[0], *self.widely(rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates))]
+            rest = rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates)
+            fits = [fits[0], *self.widely(rest, [*rest[:1], *self.rivals(rest)], (rest or fits)[0])]
+        else:
+            fits = [fits[0], *self.widely(fits[1:], [f for f in self.rivals(fits) if self.is_close(f, fits[0])], fits[0])]
         near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         behind = [f for f in fits[1:] if f.fit.chi2 >= near]
@@ -97,15 +102,24 @@ class Alone:
             self.refits.forget(fit)
         return sorted([*first, *others, *(f for f in behind if f not in unfinished)], key=penalised)
 
-    def widely(self, fits: list[Refit]) -> list[Refit]:
-        """``fits``, the foremost from other starts too; not those that leave as little as one that leaves no more than noise: a better one would only
-        follow the noise.  Forms of the best effect that can do more than it are of use only where it leaves something."""
+    def widely(self, fits: list[Refit], chosen: Sequence[Refit], best: Refit) -> list[Refit]:
+        """``fits``, the ``chosen`` ones from other starts too, where they may come near ``best``."""
+        if not chosen:
+            return fits
+        found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(best)), chosen)
+        return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
+
+    def rivals(self, fits: Sequence[Refit]) -> list[Refit]:
+        """The foremost of ``fits`` behind the best; not those that leave as little as one that leaves no more than noise: a better one would only follow the
+        noise.  Forms of the best effect that can do more than it are of use only where it leaves something."""
         if not fits:
             return []
         enough = -np.inf if leaves_some(fits[0].fit) else fits[0].fit.chi2 + self.settings.margin
-        chosen = [*fits[:1], *(f for f in fits[1:FOREMOST] if f.fit.chi2 > enough and not more_of(f, fits[0]))]
-        found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(fits[0])), chosen)
-        return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
+        return [f for f in fits[1:FOREMOST] if f.fit.chi2 > enough and not more_of(f, fits[0])]
+
+    def is_close(self, rival: Refit, best: Refit) -> bool:
+        """Whether another start may bring a rival beside one that leaves no more than noise: not if it is far behind."""
+        return rival.fit.chi2 - best.fit.chi2 < max(FAR, USUALLY_ROUGH * best.gain)
 
     def along_valleys(self, fits: list[Refit], rates: Mapping[str, float]) -> list[Refit]:
         """``fits``, those of effects two amplitudes of which do nearly the same (``rates``: see ``bent.exchange``) from wherever their valley goes on."""
