@@ -94,7 +94,7 @@ class Alone:
             fits = [fits[0], *self.widely(rest, [*rest[:1], *self.rivals(rest)], (rest or fits)[0])]
         else:
             fits = [fits[0], *self.widely(fits[1:], [f for f in self.rivals(fits) if self.is_close(f, fits[0])], fits[0])]
-        near = self.near(fits[0]) + self.refits.gained_in_earnest(first[0])
+        near = max(self.near(fits[0]), fits[0].fit.chi2 + FAR) + self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         behind = [f for f in fits[1:] if f.fit.chi2 >= near]
         unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]

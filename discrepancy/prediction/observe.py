@@ -99,7 +99,8 @@ def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
 def lost_motion(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning between +3 % and -3 % of the rated torque: middle lines of the closed loop."""
     rows = row_conditions(bench, record)
-    by_condition = {c: lost_motion_at(bench, c, values) for c in dict.fromkeys(rows)}
+    conditions = list(dict.fromkeys(rows))
+    by_condition = dict(zip(conditions, bench.threads.map(lambda c: lost_motion_at(bench, c, values), conditions)))
     return np.array([by_condition[c] for c in rows])
 
 

@@ -22,6 +22,10 @@ from discrepancy.problem import Candidate, Places, Placing
 ALIKE = 1e-6
 # Chi-square by which another zero of angles is surely the right one.
 SURELY = 25.0
+# Chi-square that an effect gains, from which it may tell zeros of angles apart that look alike without it (assumed).
+TELLS_ZEROS = 100.0
+# Of what an effect gains, what a fit in earnest gained more than a rough one which had begun elsewhere.
+OF_GAIN = 0.1
 # Chi-square by sample of a fit that may leave something.
 LEFT = 1.0
 # So often a walk along a valley begins anew, each time where it is better.
@@ -183,7 +187,27 @@ class Refits:
         key = result.key
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
-        roughly, result = result.fit.chi2, self.at_its_zero(result)
+        roughly = result.fit.chi2
+        better = self.from_its_zero(key, result)
+        if result.fit.chi2 - better.fit.chi2 > OF_GAIN * better.gain:
+            # Far from where it ends it told little of the zeros.
+            places = self.places_of(better)
+            again = self.from_its_zero(key, better)
+            if again.fit.chi2 < better.fit.chi2 - BETTER:
+                better = again
+            else:
+                self.space.predictions.put(better.fit.values, places)
+        for _ in range(MOST_MOVES):
+            before, better = better, self.otherwise(better)
+            if better is before:
+                break
+        self.gained[key] = max(roughly - better.fit.chi2, 0.0)
+        self.fitted[key] = self.final_fits[key] = better
+        return better
+
+    def from_its_zero(self, key: frozenset[str], result: Refit) -> Refit:
+        """The refit in earnest, from the zeros of angles that its effects tell, with all that is placed beside them following it."""
+        result = self.at_its_zero(result)
         # Tried zeros have placed what goes with them.
         self.settled.pop(key, None)
         self.settle(key, result)
@@ -193,13 +217,12 @@ class Refits:
                 break
             self.settle(key, better)
             better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
-        for _ in range(MOST_MOVES):
-            before, better = better, self.otherwise(better)
-            if better is before:
-                break
-        self.gained[key] = max(roughly - better.fit.chi2, 0.0)
-        self.fitted[key] = self.final_fits[key] = better
         return better
+
+    def places_of(self, result: Refit) -> Places:
+        """Where all stands that is placed beside the effects of a refit."""
+        model = self.space.model
+        return model.places(self.space.predictions.active(result.fit.values)) if isinstance(model, Placing) else ()
 
     def at_its_zero(self, result: Refit) -> Refit:
         """The refit where it would begin with zeros of angles that looked alike without its effects, if these are large and it is surely better there."""
@@ -208,7 +231,7 @@ class Refits:
             return result
         directions = [p.name for c in result.candidates for p in c.shapes if p.is_direction]
         unseen = bool(model.unseen(result.fit.values))
-        if not unseen and result.fit.chi2 > EXPLAINS * self.space.base.chi2:
+        if not unseen and result.fit.chi2 > EXPLAINS * self.space.base.chi2 and result.gain < TELLS_ZEROS:
             return result
         places, some, telling = model.waves_on(result.fit.values, directions)
         few = self.space.only(some)
