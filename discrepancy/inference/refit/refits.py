@@ -188,15 +188,15 @@ class Refits:
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         roughly = result.fit.chi2
-        better = self.from_its_zero(key, result)
-        if result.fit.chi2 - better.fit.chi2 > OF_GAIN * better.gain:
+        better, model, predictions = self.from_its_zero(key, result), self.space.model, self.space.predictions
+        if isinstance(model, Placing) and roughly - better.fit.chi2 > OF_GAIN * better.gain:
             # Far from where it ends it told little of the zeros.
-            places = self.places_of(better)
+            places = model.places(predictions.active(better.fit.values))
             again = self.from_its_zero(key, better)
             if again.fit.chi2 < better.fit.chi2 - BETTER:
                 better = again
             else:
-                self.space.predictions.put(better.fit.values, places)
+                predictions.put(better.fit.values, places)
         for _ in range(MOST_MOVES):
             before, better = better, self.otherwise(better)
             if better is before:
@@ -218,11 +218,6 @@ class Refits:
             self.settle(key, better)
             better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
         return better
-
-    def places_of(self, result: Refit) -> Places:
-        """Where all stands that is placed beside the effects of a refit."""
-        model = self.space.model
-        return model.places(self.space.predictions.active(result.fit.values)) if isinstance(model, Placing) else ()
 
     def at_its_zero(self, result: Refit) -> Refit:
         """The refit where it would begin with zeros of angles that looked alike without its effects, if these are large and it is surely better there."""
