@@ -169,8 +169,8 @@ def intervals_of(doctor: Diagnostician, fit: Refit, coverage: float, answer: Ans
     if answer and any({c.name for c in member.candidates} == names for member in answer.diagnosis.fits.members):
         told = {name: relied_on(entry) for e in answer.diagnosis.effects if e.name in names for name, entry in e.parameters.items()}
     else:
-        factors = doctor.beside_base(fit)
-        told = {p.name: relied_on({"interval": numbers[p.name].interval} | with_base(numbers[p.name], p, factors)) for p in fit.own}
+        freed = doctor.beside_base(fit)
+        told = {p.name: relied_on({"interval": numbers[p.name].interval} | with_base(numbers[p.name], p, freed)) for p in fit.own}
     return {name: e.interval for name, e in numbers.items()} | told
 
 

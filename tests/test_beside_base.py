@@ -9,7 +9,7 @@ from test_inference_toy import CANDIDATES, Toy, campaign
 
 from discrepancy.extend import intervals_of
 from discrepancy.inference.diagnose import Diagnostician
-from discrepancy.inference.refit.beside_base import WIDER, widened
+from discrepancy.inference.refit.beside_base import WIDER, Freed, widened
 from discrepancy.problem import BASE, Candidate
 from discrepancy.words import as_told
 from discrepancy.words.wording import with_base_text
@@ -32,8 +32,10 @@ def test_the_interval_is_that_of_a_fit_with_the_number_free():
     doctor.screened()
     alone, both = doctor.fit(["housing_compliance"]), doctor.fit(["housing_compliance", f"{BASE}.gap"])
     deviations = [np.sqrt(r.covariance[r.fit.names.index("housing"), r.fit.names.index("housing")]) for r in (alone, both)]
-    factor = doctor.beside_base(alone)["housing"]
+    factor, shift = doctor.beside_base(alone)["housing"]
     assert factor == pytest.approx(deviations[1] / deviations[0], rel=0.02) and factor > WIDER
+    # It lies where it is fitted with the number, too.
+    assert shift == pytest.approx(both.fit.values["housing"] - alone.fit.values["housing"], abs=0.05 * deviations[1]) and abs(shift) > deviations[0]
     # Fitted, it is in the interval already.
     assert doctor.beside_base(both) == {}
 
@@ -69,4 +71,8 @@ def test_where_the_base_has_no_such_number_nothing_is_said():
 
 
 def test_a_wider_interval_stays_within_the_bounds():
-    assert widened((0.9, 1.3), (1.0, 1.0), 2.0, (0.0, 1.4)) == pytest.approx((0.8, 1.4))
+    assert widened((0.9, 1.3), (1.0, 1.0), Freed(2.0), (0.0, 1.4)) == pytest.approx((0.8, 1.4))
+
+
+def test_an_interval_that_lies_further_on_holds_the_one_as_it_is():
+    assert widened((0.9, 1.1), (1.0, 1.0), Freed(2.0, -0.5), (0.0, 2.0)) == pytest.approx((0.3, 1.1))

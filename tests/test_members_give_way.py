@@ -10,6 +10,7 @@ from test_confusable import Rival, rival
 
 from discrepancy.inference.base_fit.fit import Box, fit_of
 from discrepancy.inference.diagnose import Diagnostician
+from discrepancy.inference.refit.beside_base import Freed
 from discrepancy.inference.refit.confusable import confusable_set, is_settled
 from discrepancy.inference.refit.curvature import _along
 from discrepancy.inference.refit.profile import profiles
@@ -106,7 +107,7 @@ def test_numbers_that_are_told_only_together_may_each_be_all_of_it(together):
         assert one.interval[0] == 0.0 and whole < one.interval[1] < 1.2 * whole and one.others == (other,)
         # What the base's numbers add is added at the ends, not to the valley's length.
         p = next(p for p in member.own if p.name == one.name)
-        assert with_base(one, p, {one.name: 2.0})["interval_with_base"][1] == pytest.approx(whole + 2.0 * (one.interval[1] - whole))
+        assert with_base(one, p, {one.name: Freed(2.0)})["interval_with_base"][1] == pytest.approx(whole + 2.0 * (one.interval[1] - whole))
     assert "both: the fitted runs tell gap and tilt only together" in " ".join(found.warnings)
     (effect,) = found.effects
     assert parameters(effect.parameters, ())["gap"]["told_with"] == ["tilt"]

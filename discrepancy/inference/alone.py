@@ -164,13 +164,13 @@ class Alone:
         """Chi-square below which a rough fit may be as good as ``best``."""
         return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
 
-    def as_good(self, best: Refit) -> float:
-        """Chi-square below which a fit in earnest may stand beside ``best`` as an answer."""
-        return best.fit.chi2 + max(4 * self.settings.margin, self.little_behind(best))
+    def as_good(self, best: Refit, gained: float | None = None) -> float:
+        """Chi-square below which a fit in earnest may stand beside ``best`` as an answer, or in place of an effect in it that ``gained`` so much."""
+        return best.fit.chi2 + max(4 * self.settings.margin, self.little_behind(best.gain if gained is None else gained))
 
-    def little_behind(self, best: Refit) -> float:
-        """Chi-square by which a fit may be worse than ``best`` where its law may only have a form slightly off."""
-        return self.settings.adequate_margin + FORM * max(best.gain, 0.0)
+    def little_behind(self, gain: float) -> float:
+        """Chi-square by which a fit may be worse than one that gains so much where its law may only have a form slightly off."""
+        return self.settings.adequate_margin + FORM * max(gain, 0.0)
 
     def as_reported(self, least: float, rival: Refit) -> Refit:
         """A rival as it is reported, fitted in earnest if it may come below the chi-square ``least`` from where predictions in earnest leave it."""

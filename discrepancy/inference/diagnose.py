@@ -16,8 +16,7 @@ from discrepancy.inference.judgement import Judgement, against, borne_out, widen
 from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.outlook import NAMED, Outlook
-from discrepancy.inference.refit.beside_base import base_parameters
-from discrepancy.inference.refit.beside_base import widening as widening_by_base
+from discrepancy.inference.refit.beside_base import Freed, base_parameters, freed
 from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
@@ -164,12 +163,13 @@ class Diagnostician:
         by_place = bool(local.findings)
         # where the misfit is beyond doubt, or unused runs may confirm what is named, naming needs less
         by_candidate = p_screen < (settings.naming_level if by_place or self.space.held_out else settings.screen_level)
-        if not by_candidate:
-            return self.nothing_named(by_place, self.selection.singles() if by_place else [], p_screen, p_local)
         selection, judgement = self.selection, self.judgement
         self.doing = "fitting effects alone"
-        if start is None:
+        if start is None and (by_candidate or by_place):
             rivals = selection.singles()
+        if not (by_candidate or (by_place and self.base_explains(rivals))):
+            return self.nothing_named(by_place, rivals, p_screen, p_local)
+        if start is None:
             start = likeliest(rivals, settings.margin)
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
@@ -258,6 +258,11 @@ class Diagnostician:
         """Whether a fit gains in earnest more than the best of all candidates may by chance: scores are made of rough predictions."""
         return float(chdtrc(len(final.own), max(final.gain, 0.0))) * len(self.refits.scores) < BY_CHANCE
 
+    def base_explains(self, rivals: Sequence[Refit]) -> bool:
+        """Whether a number of the base model takes a misfit away that is beyond doubt, though no effect, of so many, shows more than chance might."""
+        best = likeliest(rivals, self.settings.margin) if rivals else None
+        return best is not None and best.candidates[0].part == BASE and self.beyond_chance(best) and not self.judgement.leftover(best)[0]
+
     def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float) -> Diagnosis:
         """No candidate explains anything; ``by_place`` something is off all the same."""
         verdict, reason = decide(False, by_place, 0, 0, 0.0, True, self.settings)
@@ -326,9 +331,9 @@ class Diagnostician:
         return Teller(self.space, self.localisation, self.refits.scores, self.refits.fitted, self.judgement.inflation, self.beside_base,
                       self.settings.coverage, self.started)  # fmt: skip
 
-    def beside_base(self, result: Refit) -> dict[str, float]:
-        """By how much wider the intervals of ``result`` are with the base model's numbers free within their ranges."""
-        return widening_by_base(self.space, result, base_parameters(self.candidates, result.candidates))
+    def beside_base(self, result: Refit) -> dict[str, Freed]:
+        """What becomes of the parameters of ``result`` with the base model's numbers free within their ranges."""
+        return freed(self.space, result, base_parameters(self.candidates, result.candidates))
 
     # for those who go on from here ----------------------------------------------------------
     def fit(self, names: Sequence[str]) -> Refit:

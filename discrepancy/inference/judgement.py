@@ -16,6 +16,8 @@ from discrepancy.inference.refit.refit import Refit, leave_condition_out
 
 # Of chi-square that unused runs gain of noise alone in one campaign in twenty.
 CONFIRMING = 6.0
+# Of so many conditions none can be left out: what two effects do is then known from one alone.
+FEW_CONDITIONS = 2
 
 
 def against(judged: HeldOut | None) -> str:
@@ -127,6 +129,11 @@ class Judgement:
         fits = [final, *near]
         judge = self.held_out(fits)
         return Weighed({r.key: (r, judged) for r in fits if (judged := judge.judge(r)) is not None}, margin)
+
+    def is_whole(self, joint: Refit) -> bool:
+        """Whether a fit leaves nothing of runs of which none can be left out."""
+        conditions = {self.space.records[i].condition for i in self.space.training}
+        return not self.space.held_out and len(conditions) <= FEW_CONDITIONS and not self.leftover(joint)[0]
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""

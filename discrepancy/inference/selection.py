@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Sequence
+from functools import partial
 
 from discrepancy.inference.alone import ROUGH, Alone, few_of_each
 from discrepancy.inference.judgement import Judgement
@@ -39,9 +40,12 @@ SURELY = 3.0
 MOST_EXCHANGES = 3
 
 
-def ranked(trials: Sequence[Refit]) -> list[Refit]:
-    """Joint fits, the best first, those whose newest effect ends at a bound after all others."""
-    return sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t)))
+def ranked(trials: Sequence[Refit], margin: float) -> list[Refit]:
+    """Joint fits, the best first, those whose newest effect ends at a bound after all others; before one that is not better by a ``margin`` of chi-square
+    stands a number of the base model, as alone (``diagnose.likeliest``)."""
+    found = sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t)))
+    numbers = [t for t in found if t.candidates[-1].part == BASE and not newest_at_a_bound(t) and penalised(t) - penalised(found[0]) < margin]
+    return sorted(found, key=lambda t: t not in numbers[:1])
 
 
 class Selection(Alone):
@@ -74,7 +78,7 @@ class Selection(Alone):
             self.outlook.found(len(names) - calibrated)
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
-            challenger = ranked(trials)[0]
+            challenger = ranked(trials, settings.margin)[0]
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
@@ -83,7 +87,7 @@ class Selection(Alone):
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
                 break
-            if extra < plainly and not self.judgement.foretells(challenger, current):
+            if extra < plainly and not (self.judgement.is_whole(challenger) or self.judgement.foretells(challenger, current)):
                 break
             current = self.backward(challenger, least)
             if len(current.candidates) <= len(names):
@@ -93,7 +97,7 @@ class Selection(Alone):
     def in_earnest(self, trials: Sequence[Refit]) -> Refit:
         """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next."""
         found = []
-        for trial in ranked(trials)[:MOST_IN_EARNEST]:
+        for trial in ranked(trials, self.settings.margin)[:MOST_IN_EARNEST]:
             found += self.tried("fitting in earnest", self.refits.renewed, [trial])
             if found[-1].fit.chi2 <= self.near(trial):
                 return found[-1]
@@ -156,7 +160,7 @@ class Selection(Alone):
     def adequate(self, rivals: Sequence[Refit], members: Sequence[Refit]) -> list[Refit]:
         """Rivals a little behind that leave nothing unexplained: their law may only have a form slightly off."""
         least = penalised(members[0])
-        margin = self.little_behind(members[0])
+        margin = self.little_behind(members[0].gain)
         near = [r for r in rivals if r not in members and not ends_at_a_bound(r) and not has_idle_shapes(r) and penalised(r) - least <= margin]
         return [r for r in near if not self.judgement.leftover(r)[0]]
 
@@ -208,12 +212,14 @@ class Selection(Alone):
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         others = [s for s in more.scores if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
         chosen = [s for s in few_of_each(more.scores)[:4] if s in others]
-        least = final.fit.chi2 + 4 * self.settings.margin + ROUGH * drop_cost(final, member)
-        near = least + self.refits.gained_in_earnest(final)
+        gained = drop_cost(final, member)
+        near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * gained + self.refits.gained_in_earnest(final)
         what = f"fitting in place of {member.name}"
         rivals = self.tried(what, lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
         # Of what comes near all forms that show as much: four springs look alike in a loop.
         alike = {effect_of(c.name) for c in (member, *(r.candidates[-1] for r in rivals if r.fit.chi2 < near)) if c.part != BASE}
         twins = [s for s in others if s not in chosen and effect_of(s.name) in alike]
         rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
-        return [self.as_reported(least, r) if r.fit.chi2 < near else r for r in rivals]
+        # What is roughly near is looked at in earnest; only what may stand there is fitted so.
+        reported = self.tried(f"{what}, in earnest", partial(self.as_reported, self.as_good(final, gained)), [r for r in rivals if r.fit.chi2 < near])
+        return [*reported, *(r for r in rivals if r.fit.chi2 >= near)]

@@ -15,7 +15,7 @@ from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.held_out.held_out import HeldOut
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
-from discrepancy.inference.refit.beside_base import WIDER, widened
+from discrepancy.inference.refit.beside_base import WIDER, Freed, widened
 from discrepancy.inference.refit.confusable import canonical_correlation, penalised
 from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
@@ -52,15 +52,15 @@ def grown(name: str, before: float, after: float) -> list[str]:
 
 @dataclass(frozen=True)
 class Teller:
-    """What there is to tell from: ``inflation`` widens the intervals of a fit, ``beside_base`` says by how much each of its parameters' would be
-    wider with the base model's numbers free, ``started`` is when the diagnosis began [s]."""
+    """What there is to tell from: ``inflation`` widens the intervals of a fit, ``beside_base`` says what would become of each of its
+    parameters with the base model's numbers free, ``started`` is when the diagnosis began [s]."""
 
     space: Workspace
     localisation: Localisation
     scores: Mapping[str, Score]
     fitted: Mapping[frozenset[str], Refit]
     inflation: Callable[[Refit], float]
-    beside_base: Callable[[Refit], Mapping[str, float]]
+    beside_base: Callable[[Refit], Mapping[str, Freed]]
     coverage: float
     started: float
 
@@ -77,7 +77,7 @@ class Teller:
             before, after = self._errors(judge, member, captured, held_out)
             numbers = {e.name: e for e in estimates(self.space, member, self.coverage, self.inflation(member))}
             # Who interrupts waits for nothing more.
-            factors = {} if verdict == STOPPED else self.beside_base(member)
+            freed = {} if verdict == STOPPED else self.beside_base(member)
             for c in (c for c in member.candidates if c.part != BASE):
                 gain = self._gain_of(member, c) if several else member.gain
                 # What the data say nothing about is anywhere in its range, and stands where it stood.
@@ -90,7 +90,7 @@ class Teller:
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
-                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside, "meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+                told_of = {p.name: numbers[p.name].to_dict() | {"bound": outside, "meaning": meaning(p)} | with_base(numbers[p.name], p, freed)
                            for p in by_weight(self.space, member, c)}
                 effects.append(Effect(c.name, c.title, c.part, told_of,
                                       float(min(share, 1.0)), float(gain), before, after, bounds,
@@ -145,8 +145,8 @@ class Teller:
         candidate = joint.candidates[-1]
         numbers = {e.name: e for e in estimates(self.space, joint, self.coverage, self.inflation(joint))}
         worse = float(joint.fit.chi2 - first.fit.chi2)
-        factors = self.beside_base(joint)
-        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} | with_base(numbers[p.name], p, factors)
+        freed = self.beside_base(joint)
+        told_of = {p.name: numbers[p.name].to_dict() | {"meaning": meaning(p)} | with_base(numbers[p.name], p, freed)
                    for p in by_weight(self.space, joint, candidate)}
         return StandIn(candidate.name, told_of, worse, why_not(joint, first, worse))
 
@@ -196,12 +196,12 @@ def told_together(candidate: Candidate, numbers: Mapping[str, Estimate]) -> list
     ]  # fmt: skip
 
 
-def with_base(estimate: Estimate, p: Parameter, factors: Mapping[str, float]) -> dict[str, Any]:
+def with_base(estimate: Estimate, p: Parameter, freed: Mapping[str, Freed]) -> dict[str, Any]:
     """The interval with the base model's numbers free within their ranges, where that is another one."""
     # What the data say nothing about is not known less with them.
-    factor = factors.get(p.name, 1.0) if np.isfinite(estimate.deviation) else 1.0
+    beside = freed.get(p.name, Freed()) if np.isfinite(estimate.deviation) else Freed()
     core = estimate.core or (estimate.value, estimate.value)
-    return {"interval_with_base": list(widened(estimate.interval, core, factor, (p.lower, p.upper)))} if factor > WIDER else {}
+    return {"interval_with_base": list(widened(estimate.interval, core, beside, (p.lower, p.upper)))} if beside.factor > WIDER else {}
 
 
 def beside_first(member: Refit, members: Sequence[Refit]) -> tuple[float | None, str]:

@@ -1,14 +1,19 @@
-"""How much wider an interval is when the base model's own numbers may be anywhere in their ranges.
+"""How much wider an interval is when the base model's own numbers may be anywhere in their ranges, and how much further on it lies.
 
 A fit takes the numbers of the reducer file as they stand.  Where each is known beforehand to a standard deviation only, the same fit with all
 of them free has, with C their whitened responses per standard deviation (N, m) and J, V sensitivities and covariance of the fit,
 
     V + B (I + C'C - C'J B)^-1 B',     B = V J'C
 
-to first order about the fit, so that what scales an effect's response is in it.
+to first order about the fit, so that what scales an effect's response is in it.  With r what the fit leaves, its numbers are those of the file and
+
+    u = (I + C'C - C'J B)^-1 C'r
+
+standard deviations, and the parameters lie -B u further on: a size is taken for larger where a stiffness of the file is too small.
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +24,15 @@ from fmu_src.arrays import Floats
 
 # From here on it is said: below, the assumed numbers add less than the noise.
 WIDER = 1.5
+# Standard deviations of a number of the file that a misfit may call for; what asks for more is not theirs.
+MOST = 2.0
+
+
+class Freed(NamedTuple):
+    """What the base model's numbers do to a parameter when they are free: by which ``factor`` its interval is wider, and how much further on it lies."""
+
+    factor: float = 1.0
+    shift: float = 0.0
 
 
 def base_parameters(candidates: Sequence[Candidate], fitted: Sequence[Candidate]) -> list[Parameter]:
@@ -26,8 +40,8 @@ def base_parameters(candidates: Sequence[Candidate], fitted: Sequence[Candidate]
     return [p for c in candidates if c.part == BASE and all(c.name != other.name for other in fitted) for p in c.amplitudes]
 
 
-def widening(space: Workspace, result: Refit, free: Sequence[Parameter]) -> dict[str, float]:
-    """By which factor the interval of each parameter of ``result`` is wider with the numbers ``free``; 1 where they make no difference."""
+def freed(space: Workspace, result: Refit, free: Sequence[Parameter]) -> dict[str, Freed]:
+    """What becomes of each parameter of ``result`` with the numbers ``free``."""
     fit = result.fit
     known = [p for p in free if p.prior and p.name not in fit.names]
     if not known or not fit.parameters:
@@ -48,15 +62,17 @@ def widening(space: Workspace, result: Refit, free: Sequence[Parameter]) -> dict
     moved = own @ shared
     left = np.eye(len(known)) + columns.T @ columns - shared.T @ moved
     added = np.einsum("pm,mp->p", moved, np.linalg.solve(left, moved.T))
+    shifts = -moved @ np.clip(np.linalg.solve(left, columns.T @ fit.residual), -MOST, MOST) * size
     variance = np.diag(own)
     wanted = {p.name for p in result.own}
     return {
-        p.name: float(np.sqrt(1.0 + max(added[k], 0.0) / variance[k])) if variance[k] > 0.0 else 1.0
+        p.name: Freed(float(np.sqrt(1.0 + max(added[k], 0.0) / variance[k])), float(shifts[k])) if variance[k] > 0.0 else Freed()
         for k, p in enumerate(fit.parameters) if p.name in wanted
     }  # fmt: skip
 
 
-def widened(interval: tuple[float, float], core: tuple[float, float], factor: float, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The interval by that factor about the value, or about the ends between which others make up for it (``core``), within the parameter's bounds."""
-    low, high = (inner + factor * (end - inner) for inner, end in zip(core, interval))
-    return max(low, bounds[0]), min(high, bounds[1])
+def widened(interval: tuple[float, float], core: tuple[float, float], beside: Freed, bounds: tuple[float, float]) -> tuple[float, float]:
+    """The interval as it is and where it is with the base's numbers free: wider about the value, or about the ends between which others make up for it
+    (``core``), and further on; within the parameter's bounds."""
+    low, high = (inner + beside.factor * (end - inner) + beside.shift for inner, end in zip(core, interval))
+    return max(min(low, interval[0]), bounds[0]), min(max(high, interval[1]), bounds[1])

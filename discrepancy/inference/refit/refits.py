@@ -24,7 +24,7 @@ ALIKE = 1e-6
 SURELY = 25.0
 # Chi-square that an effect gains, from which it may tell zeros of angles apart that look alike without it (assumed).
 TELLS_ZEROS = 100.0
-# Of what an effect gains, what a fit in earnest gained more than a rough one which had begun elsewhere.
+# Of what effects gain, what a fit in earnest gains more than a rough one which had begun elsewhere, and what tells zeros of angles no more.
 OF_GAIN = 0.1
 # Chi-square by sample of a fit that may leave something.
 LEFT = 1.0
@@ -229,6 +229,8 @@ class Refits:
         if not unseen and result.fit.chi2 > EXPLAINS * self.space.base.chi2 and result.gain < TELLS_ZEROS:
             return result
         places, some, telling = model.waves_on(result.fit.values, directions)
+        if not unseen and self.zeros_are_told(result, places):
+            return result
         few = self.space.only(some)
         # A wrong zero has bent the effects: each is tried with those that suit it, and with the parts that these stand between.
         counted = [p.name for c in result.candidates for p in c.shapes if p.counts]
@@ -252,6 +254,19 @@ class Refits:
         chosen = 0 if left[best] > left[0] - SURELY else best
         predictions.put(begun[chosen].values, found[chosen])
         return result if chosen == 0 else replace(result, fit=begun[chosen])
+
+    def zeros_are_told(self, result: Refit, places: Sequence[Mapping[str, float]]) -> bool:
+        """Whether the zeros, which might be at other ``places`` that look alike, are those of a fit in earnest of some of the effects, to which the others
+        add little."""
+        smaller = [r for key, r in self.final_fits.items() if key < result.key]
+        known = max(smaller, key=lambda r: r.gain, default=None)
+        if known is None or result.gain - known.gain > OF_GAIN * result.gain:
+            return False
+        if any(p.counts or p.is_direction for c in result.candidates if c.name not in known.key for p in c.shapes):
+            return False
+        values, before = result.fit.values, known.fit.values
+        there = [(values[name] - before[name], values[name] - at) for place in places for name, at in place.items() if name in values]
+        return all(abs(off) < 0.5 * abs(to_other) for off, to_other in there)
 
     def otherwise(self, result: Refit) -> Refit:
         """The refit with what the model has placed at another place that looks alike, the first that is better, if something may be left of the misfit."""
