@@ -28,7 +28,8 @@ FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained (a tenth of the change, that squared; a thousandth is usual), and what a
 # linear estimate may.
 ROUGH, LINEAR, USUALLY_ROUGH = 0.01, 0.02, 0.001
-# Chi-square by which a fit is so far behind one that leaves no more than noise that none of another start stands beside that (assumed).
+# Chi-square by which a fit is so far behind one that leaves no more than noise that none of another start stands beside that, nor with the roller cages
+# placed beside it (assumed).
 FAR = 100.0
 
 
@@ -94,7 +95,11 @@ class Alone:
             fits = [fits[0], *self.widely(rest, [*rest[:1], *self.rivals(rest)], (rest or fits)[0])]
         else:
             fits = [fits[0], *self.widely(fits[1:], [f for f in self.rivals(fits) if self.is_close(f, fits[0])], fits[0])]
-        near = max(self.near(fits[0]), fits[0].fit.chi2 + FAR) + self.refits.gained_in_earnest(first[0])
+        near = self.near(fits[0])
+        if self.refits.is_placed(first[0]):
+            # What is placed beside an effect is placed beside the base model until it is seen.
+            near = max(near, fits[0].fit.chi2 + FAR)
+        near += self.refits.gained_in_earnest(first[0])
         others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
         behind = [f for f in fits[1:] if f.fit.chi2 >= near]
         unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]

@@ -319,6 +319,10 @@ class Refits:
             self.places[key] = self.space.predictions.settle(result.fit.values)
             self.settled[key] = result.fit.values, result.fit.chi2
 
+    def is_placed(self, result: Refit) -> bool:
+        """Whether there was something to be placed beside a fit in earnest."""
+        return self.places.get(result.key, False)
+
     def has_moved(self, key: frozenset[str], result: Refit) -> bool:
         """Whether a fit has gone further from where the cages were placed than it is known: they hold it back, and it holds them."""
         before, fit = self.settled[key][0], result.fit
