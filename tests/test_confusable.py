@@ -163,6 +163,13 @@ def test_what_is_not_beyond_doubt_is_named_as_far_as_unused_runs_agree(p, gain, 
         assert borne_out(p, silent, *levels) == (p < levels[1])
 
 
+def test_what_unused_runs_refute_is_named_only_far_below_the_level():
+    """Of a sound reducer five names at p = 0.0006 stood as "named but incomplete", their misfit on unused runs grown from 0.94 to 1.73."""
+    worse, better = judged(0.94, 1.73, gain=-5.0), judged(1.73, 0.94, gain=5.0)
+    assert not borne_out(0.0006, worse, 0.001, 0.004) and borne_out(0.0006, better, 0.001, 0.004)
+    assert borne_out(0.00005, worse, 0.001, 0.004) and borne_out(0.0006, None, 0.001, 0.004)
+
+
 def test_a_start_that_is_worse_than_no_effect_is_halved():
     """Debris makes debris: the slope at none promises 6, at which races are worn away; 2 is right."""
     size = Parameter("size", "1", 0.0, 0.0, 100.0, 1.0, 1)

@@ -16,29 +16,37 @@ from discrepancy.inference.refit.refit import Refit, leave_condition_out
 
 # Of chi-square that unused runs gain of noise alone in one campaign in twenty.
 CONFIRMING = 6.0
+# Of the level from which on a name needs nothing more, where unused runs refute it (assumed).
+REFUTED = 0.1
 # Of so many conditions none can be left out: what two effects do is then known from one alone.
 FEW_CONDITIONS = 2
+
+
+def grew(judged: HeldOut | None) -> bool:
+    """Whether runs that were not fitted are explained worse with what is named, and by more than noise."""
+    return judged is not None and judged.seen and judged.after > max(judged.before, WITHIN_NOISE)
 
 
 def against(judged: HeldOut | None) -> str:
     """What runs that were not fitted say against what is named; empty if nothing."""
     if judged is None:
         return ""
-    if judged.seen and judged.after > max(judged.before, WITHIN_NOISE):
-        grew = f"the misfit in the patterns grew from {judged.before:.2f} to {judged.after:.2f}"
-        return f"on runs that were not used {grew}: what is named fits, it does not explain"
+    if grew(judged):
+        became = f"the misfit in the patterns grew from {judged.before:.2f} to {judged.after:.2f}"
+        return f"on runs that were not used {became}: what is named fits, it does not explain"
     if judged.p_after < 0.0005 and judged.after > 1.5:
         return "runs that were not used are not explained: their error is far above their noise"
     return ""
 
 
 def borne_out(p: float, judged: HeldOut | None, sure: float, level: float) -> bool:
-    """Whether what is significant at ``p`` may be named: below ``sure`` as it is, else as far as unused runs that would show it agree.
+    """Whether what is significant at ``p`` may be named: below ``sure`` as it is, far below where unused runs speak against it, else as far as those that
+    would show it agree.
 
     Of noise alone they gain more than x in chi-square in no more than exp(-x/2) of campaigns (Markov, of a likelihood ratio).
     """
     if p < sure:
-        return True
+        return p < REFUTED * sure or not grew(judged)
     if judged is None or not judged.seen:
         return p < level
     return judged.gain > (0.0 if p < level else CONFIRMING)
