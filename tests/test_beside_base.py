@@ -74,5 +74,6 @@ def test_a_wider_interval_stays_within_the_bounds():
     assert widened((0.9, 1.3), (1.0, 1.0), Freed(2.0), (0.0, 1.4)) == pytest.approx((0.8, 1.4))
 
 
-def test_an_interval_that_lies_further_on_holds_the_one_as_it_is():
-    assert widened((0.9, 1.1), (1.0, 1.0), Freed(2.0, -0.5), (0.0, 2.0)) == pytest.approx((0.3, 1.1))
+def test_an_interval_that_lies_further_on_holds_the_one_where_it_is():
+    assert widened((0.9, 1.1), (1.0, 1.0), Freed(2.0, -0.5), (0.0, 2.0)) == pytest.approx((0.3, 1.2))
+    assert widened((0.9, 1.1), (1.0, 1.0), Freed(2.0, 0.5), (0.0, 1.5)) == pytest.approx((0.8, 1.5))

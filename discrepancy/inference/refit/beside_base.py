@@ -72,7 +72,10 @@ def freed(space: Workspace, result: Refit, free: Sequence[Parameter]) -> dict[st
 
 
 def widened(interval: tuple[float, float], core: tuple[float, float], beside: Freed, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The interval as it is and where it is with the base's numbers free: wider about the value, or about the ends between which others make up for it
-    (``core``), and further on; within the parameter's bounds."""
-    low, high = (inner + beside.factor * (end - inner) + beside.shift for inner, end in zip(core, interval))
-    return max(min(low, interval[0]), bounds[0]), min(max(high, interval[1]), bounds[1])
+    """The interval wider by that factor about the value, or about the ends between which others make up for it (``core``), from there to where it lies with
+    the base's numbers free, within the parameter's bounds.
+
+    Both are held: as the file has them the numbers may be right, too.
+    """
+    low, high = (inner + beside.factor * (end - inner) for inner, end in zip(core, interval))
+    return max(low + min(beside.shift, 0.0), bounds[0]), min(high + max(beside.shift, 0.0), bounds[1])
