@@ -42,7 +42,7 @@ def test_a_misfit_beyond_doubt_is_the_base_where_a_number_of_it_leaves_nothing()
 
 def judge(conditions: str, held_out=(), left=False) -> Judgement:
     found = object.__new__(Judgement)
-    found.space = SimpleNamespace(held_out=held_out, training=range(len(conditions)), records=[SimpleNamespace(condition=c) for c in conditions])
+    found.space = SimpleNamespace(held_out=held_out, conditions=sorted(set(conditions)))
     found.leftover = lambda joint: (left,)
     return found
 

@@ -17,7 +17,7 @@ from discrepancy.inference.misfit.features import ORDERS
 from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.outlook import NAMED, Outlook
 from discrepancy.inference.refit.beside_base import Freed, base_parameters, freed
-from discrepancy.inference.refit.confusable import confusable_set, ends_at_a_bound, penalised, unsettled
+from discrepancy.inference.refit.confusable import confusable_set, number_first, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, screen
@@ -41,12 +41,6 @@ FIRST = 3
 def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS) -> Diagnosis:
     """Which effect of ``model.candidates`` the model lacks, if any, and how sure that is."""
     return Diagnostician(model, settings, orders).run()
-
-
-def likeliest(rivals: Sequence[Refit], margin: float) -> Refit:
-    """The best of single fits; before an effect that is hardly better, a number of the base model: some of these are always off a little."""
-    numbers = [r for r in rivals if r.candidates[0].part == BASE and not ends_at_a_bound(r) and penalised(r) - penalised(rivals[0]) < margin]
-    return numbers[0] if numbers else rivals[0]
 
 
 class Interrupted(KeyboardInterrupt):
@@ -170,7 +164,7 @@ class Diagnostician:
         if not (by_candidate or (by_place and self.base_explains(rivals))):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         if start is None:
-            start = likeliest(rivals, settings.margin)
+            start = number_first(rivals, settings.margin)[0]
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
@@ -260,8 +254,10 @@ class Diagnostician:
 
     def base_explains(self, rivals: Sequence[Refit]) -> bool:
         """Whether a number of the base model takes a misfit away that is beyond doubt, though no effect, of so many, shows more than chance might."""
-        best = likeliest(rivals, self.settings.margin) if rivals else None
-        return best is not None and best.candidates[0].part == BASE and self.beyond_chance(best) and not self.judgement.leftover(best)[0]
+        if not rivals:
+            return False
+        best = number_first(rivals, self.settings.margin)[0]
+        return best.candidates[0].part == BASE and self.beyond_chance(best) and not self.judgement.leftover(best)[0]
 
     def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float) -> Diagnosis:
         """No candidate explains anything; ``by_place`` something is off all the same."""

@@ -140,8 +140,7 @@ class Judgement:
 
     def is_whole(self, joint: Refit) -> bool:
         """Whether a fit leaves nothing of runs of which none can be left out."""
-        conditions = {self.space.records[i].condition for i in self.space.training}
-        return not self.space.held_out and len(conditions) <= FEW_CONDITIONS and not self.leftover(joint)[0]
+        return not self.space.held_out and len(self.space.conditions) <= FEW_CONDITIONS and not self.leftover(joint)[0]
 
     def foretells(self, joint: Refit, current: Refit) -> bool:
         """Whether runs that were not fitted, or where these show no difference conditions left out in turn, are nearer to ``joint`` than to ``current``."""

@@ -14,6 +14,7 @@ from discrepancy.inference.refit.confusable import (
     is_settled,
     newest_at_a_bound,
     newest_does_nothing,
+    number_first,
     penalised,
     unsettled,
 )
@@ -41,11 +42,8 @@ MOST_EXCHANGES = 3
 
 
 def ranked(trials: Sequence[Refit], margin: float) -> list[Refit]:
-    """Joint fits, the best first, those whose newest effect ends at a bound after all others; before one that is not better by a ``margin`` of chi-square
-    stands a number of the base model, as alone (``diagnose.likeliest``)."""
-    found = sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t)))
-    numbers = [t for t in found if t.candidates[-1].part == BASE and not newest_at_a_bound(t) and penalised(t) - penalised(found[0]) < margin]
-    return sorted(found, key=lambda t: t not in numbers[:1])
+    """Joint fits, the best first (see ``number_first``), those whose newest effect ends at a bound after all others."""
+    return number_first(sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t))), margin)
 
 
 class Selection(Alone):

@@ -165,7 +165,7 @@ class Teller:
         base = sum(leave_condition_out(self.space, self.space.base).values())
         left = sum(leave_condition_out(self.space, member.fit).values())
         whole = member.gain / max(captured, 0.05)
-        conditions = len({self.space.records[i].condition for i in self.space.training})
+        conditions = len(self.space.conditions)
         before = np.sqrt(1 + whole / conditions)
         after = np.sqrt(max(1 + (whole - (base - left)) / conditions, 1e-3))
         held_out[member.name] = {"before": float(before), "after": float(after), "unit": "noise", "kind": "leave one condition out"}

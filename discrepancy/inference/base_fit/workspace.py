@@ -45,6 +45,11 @@ class Workspace:
         if not self.training:
             raise ValueError("every record is held out: nothing is left to fit; mark some conditions as training")
 
+    @property
+    def conditions(self) -> list[str]:
+        """Those of the training records, in their order."""
+        return list(dict.fromkeys(self.records[i].condition for i in self.training))
+
     # rows ---------------------------------------------------------------------------------
     def lay_out(self) -> None:
         """Which rows of the stack belong to which training record."""

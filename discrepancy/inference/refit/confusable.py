@@ -65,6 +65,13 @@ def newest_at_a_bound(joint: Refit) -> bool:
     return ends_at_a_bound(joint, joint.candidates[-1:])
 
 
+def number_first(fits: Sequence[Refit], margin: float) -> list[Refit]:
+    """``fits`` in their order; before the first of them, if it is not better by a ``margin`` of chi-square, the first whose newest effect is a number of the
+    base model: some of these are always off a little."""
+    numbers = [f for f in fits if f.candidates[-1].part == BASE and not newest_at_a_bound(f) and penalised(f) - penalised(fits[0]) < margin]
+    return sorted(fits, key=lambda f: f not in numbers[:1])
+
+
 def newest_does_nothing(joint: Refit) -> bool:
     """Whether the effect that came last is off: what the fit gains is where zeros and cages were placed anew with it."""
     return all(abs(joint.fit.values[p.name] - p.off) < NOTHING * p.scale for p in joint.candidates[-1].amplitudes)

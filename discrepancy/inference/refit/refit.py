@@ -241,11 +241,10 @@ def leave_condition_out(space: Workspace, fit: Fit) -> dict[str, float]:
 
 def literal_leave_out(space: Workspace, result: Refit, conditions: Sequence[str] | None = None) -> dict[str, float]:
     """The same with real refits: the records of one condition get no weight."""
-    every = list(dict.fromkeys(space.records[i].condition for i in space.training))
     errors = {}
     base, training, rows, size = space.base, space.training, space.rows, space.size
     try:
-        for condition in conditions or every:
+        for condition in conditions or space.conditions:
             inside = [i for i in training if space.records[i].condition != condition]
             outside = [i for i in training if space.records[i].condition == condition]
             space.training = inside
