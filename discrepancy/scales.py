@@ -9,7 +9,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES
 from discrepancy.problem import is_direction
-from discrepancy.words.intervals import both_texts, digits_of, estimate_text, relied_on
+from discrepancy.words.intervals import both_texts, digits_of, estimate_text, is_any, relied_on
 from fmu_src.display import display_unit
 from fmu_src.units import UnitError, conversion, parse, registry
 from fmu_src.variables import Variable
@@ -150,7 +150,7 @@ def of_estimate(entry: Mapping[str, Any]) -> Scale:
 def estimate_texts(entry: Mapping[str, Any]) -> tuple[str, str, str]:
     """``parameter_texts`` of an estimate as a diagnosis has it, with the other value that shows the same where there is one."""
     scale = of_estimate(entry)
-    return *both_texts(entry, scale.number, 4, readable), "" if scale.unit == "1" else scale.unit
+    return *both_texts(entry, scale.number, 4, readable), "" if scale.unit == "1" or is_any(entry) else scale.unit
 
 
 def largest(*values: float) -> float:

@@ -38,7 +38,12 @@ def others_of(member: Refit, space: Workspace) -> dict[str, float]:
     Of a ring with an even number of pins, about discs that take turns half a turn apart, an error is as well on the other side.
     """
     same = shown_by(member, space)
-    found = {p.name: other for p, other in half_a_turn_on(member.candidates, member.fit.values) if same({p.name: other})}
+    found = {}
+    for p, other in half_a_turn_on(member.candidates, member.fit.values):
+        between = 0.5 * (member.fit.values[p.name] + other)
+        # What a quarter of a turn on shows the same, too, is no direction that anything tells.
+        if same({p.name: other}) and not same({p.name: between}):
+            found[p.name] = other
     for candidate in member.candidates:
         opposite = opposite_of(candidate, member.fit.values)
         if opposite and same(opposite):

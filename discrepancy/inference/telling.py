@@ -17,6 +17,7 @@ from discrepancy.inference.misfit.localise import Localisation
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.beside_base import WIDER, Freed, widened
 from discrepancy.inference.refit.confusable import canonical_correlation, penalised
+from discrepancy.inference.refit.reach import carried
 from discrepancy.inference.refit.refit import Estimate, Refit, drop_cost, estimates, leave_condition_out
 from discrepancy.inference.screening.screen import Score
 from discrepancy.inference.verdict import BASE_OFF, STOPPED, Diagnosis, Effect, Fits, StandIn
@@ -86,7 +87,7 @@ class Teller:
                     warnings.append(f"{c.name}: {', '.join(bounds)} ended at a bound of its range; the law or the range may be wrong")
                 share = min(1.0, gain / max(member.gain, 1e-300)) * captured if several else \
                     captured * member.gain / max(members[0].gain, 1e-300)
-                warnings += told_together(c, numbers)
+                warnings += told_together(c, numbers) + told_over(c, member)
                 outside = verdict != STOPPED and beyond(self.space, member, c)
                 if outside:
                     warnings.append(f"{c.name}: alone it changes more than all that was measured, so that its parameters are bounds and no values")
@@ -194,6 +195,20 @@ def told_together(candidate: Candidate, numbers: Mapping[str, Estimate]) -> list
         f"{candidate.name}: the fitted runs tell {' and '.join(names)} only together, for what one has less another makes up for; each may be anywhere in its"
         " interval" for names in sets
     ]  # fmt: skip
+
+
+def told_over(candidate: Candidate, member: Refit) -> list[str]:
+    """Of amplitudes of an effect that are told only beside a number that is assumed, that they are, and how it is stated."""
+    parameters, texts = member.fit.parameters, []
+    for p, q in ((parameters[k], parameters[j]) for k, j in carried(member)):
+        if any(p is a for a in candidate.amplitudes):
+            alone = 1.0 / np.sqrt(member.fit.normal[member.fit.names.index(p.name), member.fit.names.index(p.name)])
+            texts.append(
+                f"{candidate.name}: {p.name} is told only beside {q.name} ({q.description}), which is taken as {q.off:g} {q.unit} give or take {q.prior:g}: its"
+                f" interval is that of {q.name}, with that known it is told to {100.0 * alone / abs(member.fit.values[p.name] - p.off):.1f} %; where it was"
+                f' measured state it in campaign.toml, [nuisances.{q.name}] with unit = "{q.unit}", start, lower, upper and prior'
+            )
+    return texts
 
 
 def with_base(estimate: Estimate, p: Parameter, freed: Mapping[str, Freed]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from discrepancy.figures.key_figures import KeyFigure
 from discrepancy.model_file import every_effect
 from discrepancy.problem import BASE
 from discrepancy.scales import AXES, Scale, of_estimate, of_signal
-from discrepancy.words.intervals import both_texts
+from discrepancy.words.intervals import both_texts, is_any
 from fmu_src.arrays import Floats
 from fmu_src.effect_words import effect_title
 from fmu_src.unit_words import unit_on_screen
@@ -109,4 +109,4 @@ def signal_axis(signal: str, unit: str) -> str:
 def estimate(entry: dict[str, Any]) -> tuple[str, str, str]:
     """(value, interval, unit) of a parameter, all in one unit that suits its size."""
     found = of_estimate(entry)
-    return *both_texts(entry, found.number, 3, number), pretty(found.unit)
+    return *both_texts(entry, found.number, 3, number), "" if is_any(entry) else pretty(found.unit)

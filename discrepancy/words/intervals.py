@@ -10,6 +10,7 @@ from rv_plant.pin_numbers import PIN_NUMBERS, pin_of, pins_alike
 # A number as text, with so many significant digits.
 Writer = Callable[[float, int], str]
 UNDETERMINED = "not determined"
+ANY = "any"
 # Digits of the width that are told, and how many an end has at most unless the two would look the same.
 OF_WIDTH, MOST = 2, 6
 # Beyond them a float has none.
@@ -62,10 +63,18 @@ def estimate_text(value: float, interval: tuple[float, float], least: int, write
     return write(value, digits_of(low, high, least, write)), interval_text(low, high, least, write)
 
 
+def is_any(entry: Mapping[str, Any]) -> bool:
+    """Whether an estimate is a direction that may be any: its interval [rad] is a turn, or more."""
+    low, high = relied_on(entry)
+    return bool(entry.get("direction")) and high - low >= math.tau
+
+
 def both_texts(entry: Mapping[str, Any], number: Callable[[float], float], least: int, write: Writer) -> tuple[str, str]:
     """``estimate_text`` of an estimate, in the unit that ``number`` makes, and behind it that of the other value that shows the same."""
     if "pins" in entry:
         return pin_texts(entry, least, write)
+    if is_any(entry):
+        return ANY, UNDETERMINED
     texts = [estimate_text(number(value), (number(low), number(high)), least, write) for value, (low, high) in values_of(entry)]
     value, interval = (" or ".join(dict.fromkeys(told)) for told in zip(*texts))
     return value, interval

@@ -6,7 +6,6 @@ of the angles above all, holds it there.  What explains the data lies along a na
 
 from collections.abc import Mapping, Sequence
 from itertools import product
-from operator import itemgetter
 
 import numpy as np
 
@@ -21,7 +20,7 @@ from fmu_src.arrays import Floats
 NO_NOISE = 3.0
 # Cosine from which two amplitudes do nearly the same.
 SAME = 0.9
-# Of the misfit, what a fit must explain for its effect to be looked for elsewhere.
+# Of the misfit, what a fit must explain for its effect to be looked for elsewhere; of what that explains, what a place must for it to go on there.
 WORTH_IT = 0.2
 # Places in typical sizes: of the first amplitude along the valley, and of the second beside what makes up for the first.
 ALONG = (-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0)
@@ -61,14 +60,26 @@ def along_valley(space: Workspace, fit: Fit, candidate: Candidate, rate: float) 
     first, second = candidate.amplitudes
     model, box = space.model, Box(fit.parameters)
     reach = [max(limits(p)) for p in (first, second)]
-    starts: list[tuple[float, Mapping[str, float]]] = []
-    for along, across in product(ALONG, ACROSS):
-        if abs(along) <= reach[0] and abs(rate * along + across) <= reach[1]:
-            form = {**fit.values, first.name: first.off + along * first.scale, second.name: second.off + (rate * along + across) * second.scale}
-            left, places = model.placed_anew(form) if isinstance(model, Placing) else (0.0, {})
-            starts.append((left, {**form, **places}))
-    likely = [start for _, start in sorted(starts, key=itemgetter(0))[: MOST_WEIGHED if any(left for left, _ in starts) else None]]
-    by_cost: Sequence[float] = space.threads.map(lambda start: total_cost(space, box, start)[0], likely)
-    for k in np.argsort(by_cost)[:MOST_PLACES]:
-        fit = min(fit, jointly(space, fit.parameters, likely[k], fit.candidates), key=lambda f: f.chi2)
+    forms = [
+        {**fit.values, first.name: first.off + along * first.scale, second.name: second.off + (rate * along + across) * second.scale}
+        for along, across in product(ALONG, ACROSS) if abs(along) <= reach[0] and abs(rate * along + across) <= reach[1]
+    ]  # fmt: skip
+    placed = [model.placed_anew(form) if isinstance(model, Placing) else (0.0, {}) for form in forms]
+    starts: list[Mapping[str, float]] = [{**form, **places} for form, (_, places) in zip(forms, placed)]
+    lefts = [left for left, _ in placed]
+    if not any(lefts):
+        # Nothing is placed: the record with the largest misfit says as well which places are likely.
+        one = space.only([max((i for i in space.touched(candidate) if i in space.rows), key=lambda i: float(np.sum(space.base.residual[space.rows[i]] ** 2)))])
+        lefts = space.threads.map(lambda start: total_cost(one, box, start)[0], starts)
+    starts = foremost(starts, lefts, MOST_WEIGHED)
+    by_cost: Sequence[float] = space.threads.map(lambda start: total_cost(space, box, start)[0], starts)
+    if min(by_cost) > space.base.chi2 - WORTH_IT * (space.base.chi2 - fit.chi2):
+        # The valley goes on nowhere else.
+        return fit
+    for start in foremost(starts, by_cost, MOST_PLACES):
+        fit = min(fit, jointly(space, fit.parameters, start, fit.candidates), key=lambda f: f.chi2)
     return fit
+
+
+def foremost(starts: Sequence[Mapping[str, float]], costs: Sequence[float], most: int) -> list[Mapping[str, float]]:
+    return [starts[k] for k in np.argsort(costs, kind="stable")[:most]]

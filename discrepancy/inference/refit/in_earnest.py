@@ -43,16 +43,19 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
 
     Last steps go by sensitivities over a standard deviation: over kinks, at which those of a point stand still.
     """
-    fit = there(space, turned_back(space, fit, candidates))
+    fit = begin = there(space, turned_back(space, fit, candidates))
     for _ in range(RENEWALS):
         with near(fit.values), space.predictions.anchored(fit.values):
             renewed = renew(space, fit, candidates)
         before, found = fit.chi2, there(space, renewed)
-        fit = min(fit, found, key=lambda f: f.chi2)
+        # Of two that are as good the one whose sensitivities are its own: nuisances have those of the base fit before.
+        fit = found if found.chi2 < fit.chi2 + STILL else fit
         # Seen from where it began it may have looked better than it is.
         if abs(found.chi2 - renewed.chi2) < STILL or before - fit.chi2 < STILL:
             break
     with near(fit.values), space.predictions.anchored(fit.values):
+        if fit is begin:
+            fit = fit_of(fit.parameters, fit.values, fit.residual, space.columns(fit.parameters, fit.values), fit.candidates, fit.converged)
         columns, covariance = by_secants(space, fit, candidates)
         polished = polish(space, fit.parameters, fit.values, columns, fit.candidates, fit.converged, fit.chi2)
     fit = fit_of(fit.parameters, fit.values, fit.residual, columns, fit.candidates, fit.converged)

@@ -1,7 +1,8 @@
-"""How far two amplitudes that do nearly the same may go together, where the chi-square along their valley is no parabola.
+"""How far two numbers that do nearly the same may go together, where the chi-square along their valley is no parabola.
 
 Which teeth bear hangs on equidistant and shift of a profile themselves, so that the chi-square rises by less to one side than to the other, or falls again
-behind a hump.  A walk from the fit outwards, all others following, tells where it has risen by what an interval allows.
+behind a hump.  An unbalance shows over the mass that vibrates, which is assumed and ends at a bound.  A walk from the fit outwards, all others following, tells
+where it has risen by what an interval allows.
 """
 
 from collections.abc import Mapping
@@ -24,6 +25,8 @@ BETTER = 1.0
 HUMP = 4.5
 # The first step of a walk in standard deviations, over the end of a parabola; by how much the next is longer, or shorter after one that went far too high.
 FIRST, GROWTH, SHORTER, MOST_STEPS = 2.2, 1.6, 0.3, 10
+# In deviations with all else held: an amplitude that is so large is there.
+PLAINLY = 4.0
 # Corrections of what follows at each place.
 ROUNDS = 3
 
@@ -51,25 +54,49 @@ def pairs(space: Workspace, result: Refit) -> list[tuple[int, int]]:
     return [(k, j) for k, j in found if names[k] not in together and names[j] not in together]
 
 
+def carried(result: Refit) -> list[tuple[int, int]]:
+    """Places of amplitudes that are plainly there and might be none by the parabola, each with that of what makes up for it: a number that is assumed."""
+    fit, covariance, own = result.fit, result.covariance, {p.name for p in result.own}
+    x = Box(fit.parameters).array(fit.values)
+    deviations = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    assumed = [j for j, p in enumerate(fit.parameters) if p.prior and p.name not in own]
+    found = []
+    for k in (fit.names.index(p.name) for c in result.candidates for p in c.amplitudes):
+        size, seen = abs(x[k] - fit.parameters[k].off), 1.0 / np.sqrt(max(fit.normal[k, k], 1e-300))
+        if not PLAINLY * seen < size < HALF * deviations[k]:
+            continue
+        found += [(k, j) for j in assumed if abs(covariance[k, j]) > SAME * deviations[k] * deviations[j] > 0.0][:1]
+    return found
+
+
 def reach(space: Workspace, result: Refit) -> Reach:
-    """How far the amplitudes of a fit that do nearly the same may go to either side, or the first better place on the way."""
-    fit = result.fit
+    """How far the amplitudes of a fit that do nearly the same, or as a number that is assumed, may go to either side, or the first better place on the way."""
     stretch: dict[str, tuple[float, float]] = {}
-    x, names = Box(fit.parameters).array(fit.values), fit.names
-    for k, j in pairs(space, result):
-        half = HALF * np.sqrt(np.diag(result.covariance))
-        # Where the first stands at its end, the second has gone as far as the first takes it along.
-        half[j] *= abs(result.covariance[k, j]) / np.sqrt(result.covariance[k, k] * result.covariance[j, j])
-        ends = []
-        for sense in (-1.0, 1.0):
-            end, better = walk(space, result, k, sense)
-            if better is not None:
-                return Reach(stretch, better)
-            ends.append(np.abs(end - x) / half)
-        stretch[names[k]] = float(ends[0][k]), float(ends[1][k])
-        low, high = float(ends[0][j]), float(ends[1][j])
-        stretch[names[j]] = (low, high) if result.covariance[k, j] > 0.0 else (high, low)
+    x, names = Box(result.fit.parameters).array(result.fit.values), result.fit.names
+    half = HALF * np.sqrt(np.maximum(np.diag(result.covariance), 0.0))
+    for k, j in [*carried(result), *pairs(space, result)]:
+        ends, better = both_ends(space, result, k)
+        if better is not None:
+            return Reach(stretch, better)
+        below, above = (np.abs(end - x) for end in ends)
+        stretch[names[k]] = float(below[k] / half[k]), float(above[k] / half[k])
+        if result.fit.parameters[j] in result.own:
+            # Where the first stands at its end, the second has gone as far as the first takes it along.
+            along = half[j] * abs(result.covariance[k, j]) / np.sqrt(result.covariance[k, k] * result.covariance[j, j])
+            low, high = float(below[j] / along), float(above[j] / along)
+            stretch[names[j]] = (low, high) if result.covariance[k, j] > 0.0 else (high, low)
     return Reach(stretch)
+
+
+def both_ends(space: Workspace, result: Refit, k: int) -> tuple[list[Floats], Mapping[str, float] | None]:
+    """Where ``walk`` ends to either side of parameter ``k``, or the first better place."""
+    ends: list[Floats] = []
+    for sense in (-1.0, 1.0):
+        end, better = walk(space, result, k, sense)
+        if better is not None:
+            return ends, better
+        ends.append(end)
+    return ends, None
 
 
 def walk(space: Workspace, result: Refit, k: int, sense: float) -> tuple[Floats, Mapping[str, float] | None]:
