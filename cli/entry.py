@@ -6,6 +6,7 @@ that must be taken away, but ends with the code of one that was terminated, or w
 
 import atexit
 import contextlib
+import gc
 import os
 import signal
 import sys
@@ -13,9 +14,13 @@ from types import FrameType
 
 # As in ``ending``, which takes longer to load.
 INTERRUPTED, TERMINATED = 130, 143
+# Objects between two looks for garbage: libraries make hundreds of thousands that stay, among which looks after every 700, as Python has it, take for a
+# twentieth of a diagnosis.
+MANY_OBJECTS = 50_000
 
 
 def main() -> int:
+    gc.set_threshold(MANY_OBJECTS)
     if os.name == "posix" and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
         signal.signal(signal.SIGTERM, end_at_once)
         # The first to be registered is the last to run: Python gives signals back to the system next.
