@@ -14,7 +14,7 @@ from types import FrameType
 
 # As in ``ending``, which takes longer to load.
 INTERRUPTED, TERMINATED = 130, 143
-# Objects between two looks for garbage: libraries make hundreds of thousands that stay, among which looks after every 700, as Python has it, take for a
+# Objects between two looks for garbage: libraries make hundreds of thousands that stay, among which looks after every 700, as Python has it, take a
 # twentieth of a diagnosis.
 MANY_OBJECTS = 50_000
 
