@@ -272,6 +272,16 @@ class Placing(Protocol):
 
 
 @runtime_checkable
+class PlacedAlone(Protocol):
+    """What a model may be besides: one that finds where records were taken that do not say it, without any effect."""
+
+    def place_alone(self, instead_of: str, values: Mapping[str, float]) -> bool:
+        """Whether such records, beside the nuisances ``values``, are as measured at one place, for which the candidate ``instead_of`` stands; there they
+        are then."""
+        ...
+
+
+@runtime_checkable
 class Cheaper(Protocol):
     """What a model may have besides: predictions next to others to first order, such at any distance from others, and rough ones."""
 

@@ -27,11 +27,11 @@ from discrepancy.figures.beside_none import beside_none
 from discrepancy.figures.figure_chance import chance_text
 from discrepancy.figures.key_figures import KeyFigure, calibrated_first
 from discrepancy.figures.stiffest import too_rigid
-from discrepancy.inference.diagnose import Diagnostician, Interrupted
+from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
 from discrepancy.inference.refit.profile import Profile
-from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, Diagnosis, Settings
+from discrepancy.inference.verdict import INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, Diagnosis, Interrupted, Settings
 from discrepancy.model_file import ModelFile
 from discrepancy.prediction.orders import named_orders
 from discrepancy.prediction.physical_model import PhysicalModel
@@ -167,7 +167,8 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         doctor.doing = "reading the key figures"
         raise AnswerSoFar(answer_of(model, doctor, doctor.stopped(), [])) from None
     try:
-        return answer_of(model, doctor, doctor.run(calibrated_first(figures)), figures)
+        found = doctor.run(calibrated_first(figures))
+        return answer_of(model, doctor, found, figures_of(doctor, model) if doctor.anew else figures)
     except Interrupted as stop:
         raise AnswerSoFar(answer_of(model, doctor, stop.found, figures)) from None
 

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from discrepancy.campaign.load import load_campaign
-from discrepancy.inference.diagnose import Diagnostician, Interrupted
+from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refits import Refits
 from discrepancy.inference.screening import screen as screening
-from discrepancy.inference.verdict import ONE, STOPPED, Settings
+from discrepancy.inference.verdict import ONE, STOPPED, Interrupted, Settings
 from discrepancy.model_file import load_model
 from discrepancy.remembered import place_of
 from fmu_src.progress import told_to

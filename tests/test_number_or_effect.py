@@ -24,9 +24,18 @@ def beside(first: Rival, second: Rival, bounds: tuple = ()) -> Rival:
 def test_a_number_of_the_base_stands_before_an_effect_that_is_hardly_better():
     first = rival("clearance", 0.0)
     spring, number, far = (beside(first, other) for other in (EFFECT, NUMBER, FAR))
-    assert [t.name for t in ranked([far, spring, number], 6.0)] == [number.name, spring.name, far.name]
-    assert ranked([far, spring], 6.0)[0] is spring
-    assert ranked([spring, beside(first, NUMBER, ("base.stiffness_size",))], 6.0)[0] is spring
+    assert [t.name for t in ranked([far, spring, number], 6.0, 300.0)] == [number.name, spring.name, far.name]
+    assert ranked([far, spring], 6.0, 300.0)[0] is spring
+    assert ranked([spring, beside(first, NUMBER, ("base.stiffness_size",))], 6.0, 300.0)[0] is spring
+
+
+def test_what_ends_at_a_bound_stands_behind_others_that_are_not_plainly_worse():
+    """A friction that took 5,400 of chi-square away, its speed at a bound for nothing moves in a loop, stood behind a play that took 240."""
+    first = rival("clearance", 0.0)
+    play = beside(first, rival("play", 5000.0))
+    near, far = (beside(first, rival("friction", chi2), ("friction_size",)) for chi2 in (4950.0, 1000.0))
+    assert ranked([near, play], 6.0, 5400.0)[0] is play
+    assert ranked([play, far], 6.0, 5400.0)[0] is far
 
 
 def explains(rivals, chance=True, left=False) -> bool:

@@ -50,7 +50,7 @@ def unstated_texts(model: PhysicalModel, found: Diagnosis) -> list[str]:
 def place_texts(model: PhysicalModel, effects: Effects, values: Mapping[str, float]) -> list[str]:
     """Where such loops are as measured beside the ``effects`` of ``values``, or of the model file itself, with the line that states it."""
     period, told = model.unstated_places.period, []
-    beside = "what is named" if effects else "the model's effects"
+    beside = "what is named" if effects else "the model's effects" if model.without_own else "the base model"
     for condition, place in model.unstated_places.taken(effects, values).items():
         # From where angles count by this fit, as a stated position does.
         place -= model.locked_places.zero_moved(next(r for r in model.records if r.condition == condition and is_unplaced(r)), values)

@@ -10,7 +10,6 @@ from scipy.special import chdtrc, fdtrc
 from discrepancy.inference.alone import WORTHWHILE, few_of_each
 from discrepancy.inference.base_errors import computed_wrongly
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.chance import chance
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.judgement import Judgement, against, borne_out, widening
 from discrepancy.inference.misfit.features import ORDERS
@@ -20,13 +19,14 @@ from discrepancy.inference.refit.beside_base import Freed, base_parameters, free
 from discrepancy.inference.refit.confusable import confusable_set, number_first, penalised, unsettled
 from discrepancy.inference.refit.refit import Refit, estimates
 from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.said import misfit_text
 from discrepancy.inference.screening.screen import Score, Screen, candidate_columns, screen
 from discrepancy.inference.screening.seen import only_seen
 from discrepancy.inference.screening.visible import Visible, visible
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.telling import SAME_CHI2, Teller
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Settings, decide
-from discrepancy.problem import BASE, CHAIN, Candidate, Model, effect_of
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, STOPPED, UNKNOWN, Diagnosis, Interrupted, Settings, decide
+from discrepancy.problem import BASE, CHAIN, Candidate, Model, PlacedAlone, effect_of
 from fmu_src.percent import percent
 from fmu_src.progress import say
 
@@ -43,14 +43,6 @@ def diagnose(model: Model, settings: Settings = Settings(), orders: Mapping[str,
     return Diagnostician(model, settings, orders).run()
 
 
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C in a diagnosis; ``found`` is what was known by then."""
-
-    def __init__(self, found: Diagnosis):
-        super().__init__(found.reason)
-        self.found = found
-
-
 class Diagnostician:
     """One diagnosis; the steps can be called one by one."""
 
@@ -59,14 +51,20 @@ class Diagnostician:
     def __init__(self, model: Model, settings: Settings = Settings(), orders: Mapping[str, Sequence[float]] = ORDERS):
         self.model, self.settings, self.orders = model, settings, orders
         self.started = time.perf_counter()
-        self.space = Workspace(model)
         self.candidates = list(model.candidates)
+        # Whether everything was begun anew, with records where they were taken.
+        self.anew = False
+        self.begin()
+
+    def begin(self) -> None:
+        """As if nothing was done yet."""
+        self.space = Workspace(self.model)
         # Candidates as far as the campaign can see them.
         self.seen: dict[str, Candidate] = {}
         # Said if it is interrupted.
         self.doing = "fitting the base model"
         self.refits = Refits(self.space, self.candidates)
-        self.judgement = Judgement(self.space, orders, settings.leftover_level)
+        self.judgement = Judgement(self.space, self.orders, self.settings.leftover_level)
         self.outlook = Outlook()
 
     def __getstate__(self) -> dict[str, Any]:
@@ -126,23 +124,34 @@ class Diagnostician:
 
         Ctrl-C raises ``Interrupted`` with what is known by then; run again, it goes on with the fits and predictions that it has.
         """
-        predictions = self.space.predictions
-        predictions.unfinished = True
+        self.space.predictions.unfinished = True
         try:
             found = self.walk(first)
         except KeyboardInterrupt:
             if not hasattr(self, "localisation"):
                 raise
             raise Interrupted(self.stopped()) from None
-        predictions.unfinished = False
+        self.space.predictions.unfinished = False
         return found
+
+    def begins_anew(self, start: Refit) -> bool:
+        """Whether the best effect alone stands for a place of which nobody says it, and leaves something: from there all is looked for anew."""
+        model = self.model
+        if not (isinstance(model, PlacedAlone) and self.judgement.leftover(start)[0] and model.place_alone(start.name, self.space.base.values)):
+            return False
+        say(f"{start.name} leaves something, and there is a place at which loops are as measured: all is looked for anew with inputs locked there")
+        self.anew = True
+        del self.localisation
+        self.begin()
+        self.space.predictions.unfinished = True
+        return True
 
     def walk(self, first: Sequence[str]) -> Diagnosis:
         """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
         self.outlook.fitted(self.space.base)
-        self.say_place()
+        say(misfit_text(self.localisation))
         self.doing = "screening"
         rivals, start = self.calibrated(first)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
@@ -165,6 +174,8 @@ class Diagnostician:
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         if start is None:
             start = number_first(rivals, settings.margin)[0]
+            if self.begins_anew(start):
+                return self.walk(first)
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
@@ -266,16 +277,6 @@ class Diagnostician:
             verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
         found = self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
         return replace(found, visible=self.visible()) if verdict == NONE else found
-
-    def say_place(self) -> None:
-        """Where the misfit is, as soon as it is known."""
-        found = self.localisation.largest
-        if not found:
-            say("no place, order or dependence carries a significant misfit")
-            return
-        best, more = found[0], f", and {len(found) - 1} more" if len(found) > 1 else ""
-        where = "everywhere alike" if best.dependence == "everywhere" else f"changing with {best.dependence}"
-        say(f"misfit: {best.signal}, {best.feature}, {where} ({chance(best.p)}){more}")
 
     def say_scores(self) -> None:
         """Which effects explain most before any is fitted: an order in which to look at them, and no answer."""

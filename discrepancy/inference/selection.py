@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Sequence
 from functools import partial
 
-from discrepancy.inference.alone import ROUGH, Alone, few_of_each
+from discrepancy.inference.alone import FAR, ROUGH, Alone, few_of_each
 from discrepancy.inference.judgement import Judgement
 from discrepancy.inference.outlook import Outlook
 from discrepancy.inference.refit.confusable import (
@@ -19,7 +19,7 @@ from discrepancy.inference.refit.confusable import (
     unsettled,
 )
 from discrepancy.inference.refit.refit import Refit, drop_cost
-from discrepancy.inference.refit.refits import Refits
+from discrepancy.inference.refit.refits import OF_GAIN, Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import BASE, Candidate, effect_of
@@ -41,9 +41,14 @@ SURELY = 3.0
 MOST_EXCHANGES = 3
 
 
-def ranked(trials: Sequence[Refit], margin: float) -> list[Refit]:
-    """Joint fits, the best first (see ``number_first``), those whose newest effect ends at a bound after all others."""
-    return number_first(sorted(trials, key=lambda t: (newest_at_a_bound(t), penalised(t))), margin)
+def ranked(trials: Sequence[Refit], margin: float, before: float) -> list[Refit]:
+    """Joint fits, the best first (see ``number_first``), those whose newest effect ends at a bound after others that are not plainly worse; ``before``: the
+    chi-square without it."""
+
+    def standing(trial: Refit) -> float:
+        return penalised(trial) + (max(FAR, OF_GAIN * (before - trial.fit.chi2)) if newest_at_a_bound(trial) else 0.0)
+
+    return number_first(sorted(trials, key=standing), margin)
 
 
 class Selection(Alone):
@@ -76,12 +81,12 @@ class Selection(Alone):
             self.outlook.found(len(names) - calibrated)
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
-            challenger = ranked(trials, settings.margin)[0]
+            challenger = ranked(trials, settings.margin, current.fit.chi2)[0]
             newest = challenger.candidates[-1].name
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
                 trials += self.exchanged(names[0], newest, challenger.gain, close)
-            challenger = self.in_earnest(trials)
+            challenger = self.in_earnest(trials, current.fit.chi2)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
                 break
@@ -92,10 +97,10 @@ class Selection(Alone):
                 break
         return current
 
-    def in_earnest(self, trials: Sequence[Refit]) -> Refit:
-        """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next."""
+    def in_earnest(self, trials: Sequence[Refit], before: float) -> Refit:
+        """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next.  ``before``: see ``ranked``."""
         found = []
-        for trial in ranked(trials, self.settings.margin)[:MOST_IN_EARNEST]:
+        for trial in ranked(trials, self.settings.margin, before)[:MOST_IN_EARNEST]:
             found += self.tried("fitting in earnest", self.refits.renewed, [trial])
             if found[-1].fit.chi2 <= self.near(trial):
                 return found[-1]

@@ -176,3 +176,11 @@ def decide(significant_candidate: bool, significant_place: bool, named: int, mem
     if members > 1:
         return SET, "these effects fit equally well; this campaign cannot separate them"
     return ONE, "it explains the misfit, and no rival comes near"
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in a diagnosis; ``found`` is what was known by then."""
+
+    def __init__(self, found: Diagnosis):
+        super().__init__(found.reason)
+        self.found = found

@@ -250,8 +250,7 @@ class PhysicalModel(PlacedBeside):
                     raise
                 raise RunFault(f"{fault}. {torque.text}; {torque.remedy}") from None
             # Values at which the reducer finds no equilibrium fit badly; they end no search.
-            signs = np.where(np.arange(len(measured.values)) % 2 == 0, 1.0, -1.0)
-            return measured.values + IMPOSSIBLE * self.sizes.get(measured.quantity, 1.0) * signs
+            return measured.values + far_off(len(measured.values), self.sizes.get(measured.quantity, 1.0))
         predicted = with_error(predicted, record, asked.values)
         if (error := asked.values.get(LOOPS, 0.0)) and is_loop(record):
             predicted = predicted + error * loop_error(self.bench, record)
@@ -293,7 +292,11 @@ class PhysicalModel(PlacedBeside):
     def loop_at(self, values: Mapping[str, float], record: Record, place: float | None) -> Floats:
         """A loop [rad] roughly, with its input locked at ``place`` [rad], None: as the record has it, else as the mean over positions."""
         asked, record = self.asked(values), record if place is None else locked(record, place)
-        found = OBSERVED[record.quantity](self.search_bench, record, self.own(record, asked))
+        try:
+            found = OBSERVED[record.quantity](self.search_bench, record, self.own(record, asked))
+        except RunFault:
+            # Where the reducer finds no equilibrium it was not locked.
+            return record.values + far_off(len(record.values), self.sizes.get(record.quantity, 1.0))
         return self.chained(found, record, asked)
 
     def error_with(self, values: Mapping[str, float], effects: Effects, record: Record, which: bool) -> Floats:
@@ -315,6 +318,11 @@ class PhysicalModel(PlacedBeside):
         places = {"mounting": record.mounting, "condition": record.condition, "run": record.name}
         own = {n: asked.values[f"{n}[{places[per]}]"] for n, per in self.per.items() if per in places and f"{n}[{places[per]}]" in asked.values}
         return asked.of_reducer | own if own else asked.of_reducer
+
+
+def far_off(count: int, size: float) -> Floats:
+    """What is added to so many measured values, of about this ``size``, where nothing can be predicted: with signs that no zero takes away."""
+    return IMPOSSIBLE * size * np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
 
 
 def identities_of(records: Sequence[Record]) -> dict[int, tuple[Hashable, ...]]:

@@ -18,8 +18,11 @@ from discrepancy.prediction.locked_places import LockedPlaces
 from discrepancy.prediction.locked_waves import LockedWaves
 from discrepancy.prediction.unstated_places import UnstatedPlaces
 from discrepancy.prediction.zero_bounds import ZeroBounds
-from discrepancy.problem import ERROR, Places, Record, is_unplaced
+from discrepancy.problem import ERROR, Places, Record, effect_of, is_unplaced
 from fmu_src.arrays import Floats
+
+# The effect that stands for a position of which nobody says it.
+LOCKED_POSITION = "locked_position"
 
 
 class PlacedBeside:
@@ -84,6 +87,11 @@ class PlacedBeside:
         if not (effects or self.without_own):
             return False
         return self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects))
+
+    def place_alone(self, instead_of: str, values: Mapping[str, float]) -> bool:
+        """See ``problem.PlacedAlone``: inputs that were locked at one position."""
+        every = self.standing() | dict(values)
+        return effect_of(instead_of) == LOCKED_POSITION and self.unstated_places.place_alone(partial(self.loop_at, every))
 
     def placed_anew(self, values: Mapping[str, float]) -> tuple[float, dict[str, float]]:
         """See ``problem.Placing``: zeros of angles, with the lag of the base model."""

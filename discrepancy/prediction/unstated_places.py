@@ -99,6 +99,15 @@ class UnstatedPlaces:
         self.found[effects] = found
         return found != before
 
+    def place_alone(self, predicted: LoopAt) -> bool:
+        """Looks for the places without any effect, which transmission errors beside would tell; False, and nothing changes, where one has none."""
+        places = {condition: self.searched(loop, predicted, None) for condition, loop in self.loops.items()} if self.errors else {}
+        found = {condition: place for condition, place in places.items() if place is not None}
+        if not found or len(found) < len(places) or frozenset() in self.found:
+            return False
+        self.found[frozenset()] = found
+        return True
+
     def are_elsewhere(self, effects: Effects, values: Mapping[str, float], predicted: LoopAt) -> bool:
         """Whether loops were locked elsewhere than where they are taken to with these effects."""
         if effects not in self.found:
