@@ -110,3 +110,17 @@ def test_where_the_reducer_finds_no_equilibrium_no_input_was_locked(tmp_path, mo
     monkeypatch.setitem(__import__("discrepancy.prediction.physical_model", fromlist=["OBSERVED"]).OBSERVED, "hysteresis", fails)
     found = model.loop_at(model.standing(), loop, 1.0)
     assert np.ptp(found - loop.values) == pytest.approx(2.0 * IMPOSSIBLE * model.sizes["hysteresis"])
+
+
+def test_a_model_that_was_fitted_to_a_campaign_finds_the_place_again(tmp_path):
+    """``extend`` had friction beside a place, and ``compare`` held the loops against their mean: 0.99 times the noise, and 4.64."""
+    folder = written(tmp_path, hidden={"friction_coefficient": 0.05}, loop=True)
+    stated = (folder / "campaign.toml").read_text()
+    (folder / "campaign.toml").write_text(stated.replace('locked_at = "0 deg"', ""))
+    friction = f'[model]\nname = "better"\nreducer = "{REDUCER}"\n\n[effects.stribeck_friction]\nfriction_coefficient = "0.05 1"\n'
+    step = '\n[[steps]]\ncampaign = "zeros"\neffects = ["stribeck_friction.mesh"]\nkept = true\n\n[steps.nuisances]\n"angle_zero[1]" = 0.0\n'
+    found = []
+    for name, text in (("elsewhere", friction), ("fitted", friction + step)):
+        (tmp_path / f"{name}.toml").write_text(text)
+        found.append(PhysicalModel(load_model(tmp_path / f"{name}.toml"), load_campaign(folder)).unstated_places.taken(frozenset(), {}))
+    assert found[0] == {} and set(found[1]) == {"held"}

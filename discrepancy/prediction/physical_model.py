@@ -137,7 +137,7 @@ class PhysicalModel(PlacedBeside):
         self.search_bench = in_process.rougher.forgetful()
         if zeros is None:
             self.cages.place(self.standing())
-            self.place_unstated(frozenset(), self.standing())
+            self.place_unstated(frozenset(), self.standing(), bool(model.zeros_of(campaign.name)))
         self.nuisances: tuple[Parameter, ...] = declared + tuple(self.angle_nuisances())
         if any(r.quantity.startswith("vibration") for r in self.records) and HOUSING_MASS not in self.per:
             # Assumed, and known to be of that size: else any force would do, with a mass to match.

@@ -82,11 +82,14 @@ class PlacedBeside:
         """Loops [rad] roughly, as their records are placed."""
         return lambda record: self.loop_at(values, record, None)
 
-    def place_unstated(self, effects: Effects, every: Mapping[str, float]) -> bool:
-        """Where inputs were locked of which nobody says it, looked for beside the ``effects`` of the values, else beside those of the model file."""
+    def place_unstated(self, effects: Effects, every: Mapping[str, float], fitted: bool = False) -> bool:
+        """Where inputs were locked of which nobody says it, looked for beside the ``effects`` of the values, else beside those of the model file: of one
+        that was ``fitted`` to this campaign even if these show in loops alone."""
         if not (effects or self.without_own):
             return False
-        return self.unstated_places.place(effects, every, partial(self.loop_at, every), partial(self.error_with, every, effects))
+        predicted = partial(self.loop_at, every)
+        found = self.unstated_places.place(effects, every, predicted, partial(self.error_with, every, effects))
+        return found or (fitted and not self.unstated_places.taken(effects, every) and self.unstated_places.place_alone(predicted))
 
     def place_alone(self, instead_of: str, values: Mapping[str, float]) -> bool:
         """See ``problem.PlacedAlone``: inputs that were locked at one position."""

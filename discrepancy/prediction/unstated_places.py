@@ -103,7 +103,7 @@ class UnstatedPlaces:
         """Looks for the places without any effect, which transmission errors beside would tell; False, and nothing changes, where one has none."""
         places = {condition: self.searched(loop, predicted, None) for condition, loop in self.loops.items()} if self.errors else {}
         found = {condition: place for condition, place in places.items() if place is not None}
-        if not found or len(found) < len(places) or frozenset() in self.found:
+        if not found or len(found) < len(places) or self.found.get(frozenset()):
             return False
         self.found[frozenset()] = found
         return True
