@@ -62,11 +62,19 @@ def test_the_place_is_taken_before_further_effects_are_looked_for():
     assert found.effects[0].parameters["friction_size"]["value"] == pytest.approx(3.0, abs=0.2)
 
 
+def test_beside_a_larger_effect_the_place_is_looked_for_with_it():
+    model = Loops(25.0)
+    doctor = Diagnostician(model)
+    found = doctor.run()
+    assert model.asked[-1] == "position" and doctor.anew
+    assert [e.name for e in found.effects] == ["friction"] and found.effects[0].parameters["friction_size"]["value"] == pytest.approx(25.0, abs=0.2)
+
+
 def test_where_there_is_no_such_place_the_diagnosis_goes_on():
     model = Loops(3.0, is_found=False)
     doctor = Diagnostician(model)
     found = doctor.run()
-    assert model.asked == ["position"] and not doctor.anew
+    assert set(model.asked) == {"position", "friction"} and not doctor.anew
     assert {e.name for e in found.effects} == {"position", "friction"}
 
 

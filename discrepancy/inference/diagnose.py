@@ -57,7 +57,6 @@ class Diagnostician:
         self.begin()
 
     def begin(self) -> None:
-        """As if nothing was done yet."""
         self.space = Workspace(self.model)
         # Candidates as far as the campaign can see them.
         self.seen: dict[str, Candidate] = {}
@@ -134,12 +133,15 @@ class Diagnostician:
         self.space.predictions.unfinished = False
         return found
 
-    def begins_anew(self, start: Refit) -> bool:
-        """Whether the best effect alone stands for a place of which nobody says it, and leaves something: from there all is looked for anew."""
+    def begins_anew(self, best: Refit) -> bool:
+        """Whether the best effect, or one of the best, stands for a place of which nobody says it, and leaves something: from there all is looked for anew."""
         model = self.model
-        if not (isinstance(model, PlacedAlone) and self.judgement.leftover(start)[0] and model.place_alone(start.name, self.space.base.values)):
+        if self.anew or not isinstance(model, PlacedAlone) or not self.judgement.leftover(best)[0]:
             return False
-        say(f"{start.name} leaves something, and there is a place at which loops are as measured: all is looked for anew with inputs locked there")
+        own, values = {c.name: {p.name for p in c.parameters} for c in best.candidates}, best.fit.values
+        if not any(model.place_alone(name, {n: v for n, v in values.items() if n not in own[name]}) for name in own):
+            return False
+        say(f"{best.name} leaves something, and at one place loops are as measured: all is looked for anew with inputs locked there")
         self.anew = True
         del self.localisation
         self.begin()
@@ -179,6 +181,8 @@ class Diagnostician:
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
+        if self.begins_anew(final):
+            return self.walk(first)
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         weighed = judgement.weighed(final, selection.fitted_in_earnest(final, rivals), settings.margin)

@@ -215,7 +215,8 @@ class Selection(Alone):
         needed = next((s.statistic for s in more.scores if s.name == member.name), 0.0)
         others = [s for s in more.scores if s.name != member.name and s.statistic >= HOPELESS_STAND_IN * needed]
         chosen = [s for s in few_of_each(more.scores)[:4] if s in others]
-        gained = drop_cost(final, member)
+        # By a curvature that a kink may have made.
+        gained = min(drop_cost(final, member), max(final.gain, 0.0))
         near = final.fit.chi2 + 4 * self.settings.margin + ROUGH * gained + self.refits.gained_in_earnest(final)
         what = f"fitting in place of {member.name}"
         rivals = self.tried(what, lambda s: self.refits.fit([*rest, s.name], own, [s], near), chosen)
