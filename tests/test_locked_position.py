@@ -13,10 +13,9 @@ from benchmarks.unplaced_loops import ARCSEC, Case, measured, there_and_back
 from cli.main import main
 from discrepancy.campaign.load import load_campaign
 from discrepancy.compare import compare
-from discrepancy.doubts.hidden_by_position import POSITION
 from discrepancy.doubts.locked_doubts import locked_doubts
 from discrepancy.experiment.rig_runs import Measurement, at_a_position
-from discrepancy.held_names import LOCKED_AT
+from discrepancy.held_names import LOCKED_AT, LOCKED_POSITION
 from discrepancy.inference.next_experiment import Experiment
 from discrepancy.inference.refit.confusable import PER_PARAMETER, penalised
 from discrepancy.inference.verdict import ONE, SEVERAL
@@ -34,7 +33,7 @@ RATIO = 121.0
 AMOUNTS = [f"position_{k}" for k in range(1, 6)]
 # Rivals that move in a loop as a position does, and some that do not.
 FEW = {"needle_clearance", "profile_modification", "raceway_wear.inner", "raceway_wear.outer", "first_stage_error.backlash", "first_stage_error.mesh",
-       "support_compliance", "thermal_expansion", "sensor_gain.hysteresis", "base.tooth_backlash", POSITION, f"{POSITION}.each"}  # fmt: skip
+       "support_compliance", "thermal_expansion", "sensor_gain.hysteresis", "base.tooth_backlash", LOCKED_POSITION, f"{LOCKED_POSITION}.each"}  # fmt: skip
 
 
 def campaign_of(folder, degrees, shares=(0.5, 0.75, 1.0), locked="", noise=0.5, reducer="RV20E-121-rigid", **values):
@@ -56,17 +55,17 @@ def loop_record(condition="a", **more):
 
 
 def offered(records):
-    return {c.name: c for c in candidates(records, {}, set(), ["1"]) if c.name.startswith(POSITION)}
+    return {c.name: c for c in candidates(records, {}, set(), ["1"]) if c.name.startswith(LOCKED_POSITION)}
 
 
 def test_offered_where_a_loop_is_and_nobody_says_which():
     one = offered([loop_record()])
-    assert list(one) == [POSITION]
-    assert [p.name for p in one[POSITION].amplitudes] == AMOUNTS
-    assert {(p.prior, p.lower, p.upper) for p in one[POSITION].amplitudes} == {(1.0, -4.0, 4.0)}
+    assert list(one) == [LOCKED_POSITION]
+    assert [p.name for p in one[LOCKED_POSITION].amplitudes] == AMOUNTS
+    assert {(p.prior, p.lower, p.upper) for p in one[LOCKED_POSITION].amplitudes} == {(1.0, -4.0, 4.0)}
     # A rig that was turned between conditions; what is held out is fitted to nothing.
     several = offered([loop_record("a"), loop_record("b"), loop_record("c", held_out=True)])
-    assert [p.name for p in several[f"{POSITION}.each"].amplitudes] == [f"{name}[{c}]" for c in "ab" for name in AMOUNTS]
+    assert [p.name for p in several[f"{LOCKED_POSITION}.each"].amplitudes] == [f"{name}[{c}]" for c in "ab" for name in AMOUNTS]
     assert offered([loop_record(factors={LOCKED_AT: 0.3})]) == {}
     assert offered([loop_record(of_positions=True)]) == {}
 
@@ -179,14 +178,14 @@ def test_a_loop_where_the_input_is_known_to_stand_is_an_experiment():
 @pytest.mark.parametrize("degrees", [140.0, 600.0])
 def test_loops_of_one_position_are_named_as_that(tmp_path, degrees):
     answer = answered(campaign_of(tmp_path / "c", degrees))
-    assert answer.verdict == ONE and [e["name"] for e in answer.effects] == [POSITION]
+    assert answer.verdict == ONE and [e["name"] for e in answer.effects] == [LOCKED_POSITION]
     [hides] = [w for w in answer.warnings if "where the input was locked hides" in w]
     assert "needle_clearance" in hides and "locked_at" in hides
 
 
 def test_what_a_position_hides_covers_what_is_there(tmp_path):
     answer = answered(campaign_of(tmp_path / "c", 140.0, needle_clearance_added=2e-7))
-    assert POSITION in {e["name"] for e in answer.effects}
+    assert LOCKED_POSITION in {e["name"] for e in answer.effects}
     assert "needle_clearance" not in {e["name"] for e in answer.effects} or answer.confusable
     [hides] = [w for w in answer.warnings if "where the input was locked hides" in w]
     low, high = map(float, re.search(r"needle_clearance\.added of (\S+) um to (\S+) um", hides).groups())
@@ -199,7 +198,7 @@ def test_nothing_is_named_where_the_position_is_stated(tmp_path):
 
 def test_a_rig_that_was_turned_between_conditions(tmp_path):
     answer = answered(measured(Case("", (0.0, 272.0, 600.0)), tmp_path / "c", "RV20E-121-rigid"))
-    assert [e["name"] for e in answer.effects] == [POSITION] and answer.effects[0]["variant"] == "each"
+    assert [e["name"] for e in answer.effects] == [LOCKED_POSITION] and answer.effects[0]["variant"] == "each"
 
 
 def test_a_large_clearance_at_a_stated_position_is_named(tmp_path):
@@ -212,18 +211,18 @@ def test_a_large_clearance_at_a_stated_position_is_named(tmp_path):
 @pytest.mark.campaign
 def test_friction_is_named_beside_an_unknown_position(tmp_path):
     answer = answered(campaign_of(tmp_path / "c", 140.0, friction_coefficient=0.05))
-    assert {e["name"] for e in answer.effects} == {"stribeck_friction", POSITION}
+    assert {e["name"] for e in answer.effects} == {"stribeck_friction", LOCKED_POSITION}
 
 
 @pytest.mark.campaign
 def test_play_and_position_in_one_set(tmp_path):
     answer = answered(campaign_of(tmp_path / "c", 0.0, noise=2.0, reducer="RV20E-121"))
-    assert {"needle_clearance", POSITION} <= set(answer.confusable)
+    assert {"needle_clearance", LOCKED_POSITION} <= set(answer.confusable)
 
 
 @pytest.mark.campaign
 def test_a_large_clearance_is_named_at_an_unknown_position_but_is_less_well_known(tmp_path):
     answer = answered(campaign_of(tmp_path / "c", 140.0, reducer="RV20E-121", needle_clearance_added=2e-6))
-    assert answer.verdict == SEVERAL and {e["name"] for e in answer.effects} == {"needle_clearance", POSITION}
+    assert answer.verdict == SEVERAL and {e["name"] for e in answer.effects} == {"needle_clearance", LOCKED_POSITION}
     low, high = answer.effects[0]["parameters"]["needle_clearance_added"]["interval"]
     assert low < 2e-6 < high and high - low > 0.2e-6

@@ -13,6 +13,7 @@ from discrepancy.campaign.load import load_campaign
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.observe import OBSERVED
 from discrepancy.prediction.over_torque import OverTorque
 from discrepancy.prediction.physical_model import IMPOSSIBLE, PhysicalModel
 from discrepancy.prediction.unstated_places import UnstatedPlaces, locked
@@ -97,10 +98,15 @@ def test_a_loop_without_any_effect_tells_its_place_and_a_mean_has_none():
         assert not nothing.place_alone(predicted) and not nothing.found
 
 
+def without_place(folder, hidden):
+    """A campaign with a loop of which nobody says where its input was locked."""
+    file = written(folder, hidden=hidden, loop=True) / "campaign.toml"
+    file.write_text(file.read_text().replace('locked_at = "0 deg"', ""))
+    return folder
+
+
 def test_only_the_effect_that_stands_for_a_position_gives_way_to_one(tmp_path):
-    folder = written(tmp_path, hidden={}, loop=True)
-    stated = (folder / "campaign.toml").read_text()
-    (folder / "campaign.toml").write_text(stated.replace('locked_at = "0 deg"', ""))
+    folder = without_place(tmp_path, {})
     model = PhysicalModel(load_model(REDUCER), load_campaign(folder))
     assert not model.place_alone("needle_clearance", model.standing()) and not model.unstated_places.found
     model.place_alone("locked_position", model.standing())
@@ -115,16 +121,14 @@ def test_where_the_reducer_finds_no_equilibrium_no_input_was_locked(tmp_path, mo
     def fails(*_):
         raise RunFault("no equilibrium")
 
-    monkeypatch.setitem(__import__("discrepancy.prediction.physical_model", fromlist=["OBSERVED"]).OBSERVED, "hysteresis", fails)
+    monkeypatch.setitem(OBSERVED, "hysteresis", fails)
     found = model.loop_at(model.standing(), loop, 1.0)
     assert np.ptp(found - loop.values) == pytest.approx(2.0 * IMPOSSIBLE * model.sizes["hysteresis"])
 
 
 def test_a_model_that_was_fitted_to_a_campaign_finds_the_place_again(tmp_path):
     """``extend`` had friction beside a place, and ``compare`` held the loops against their mean: 0.99 times the noise, and 4.64."""
-    folder = written(tmp_path, hidden={"friction_coefficient": 0.05}, loop=True)
-    stated = (folder / "campaign.toml").read_text()
-    (folder / "campaign.toml").write_text(stated.replace('locked_at = "0 deg"', ""))
+    folder = without_place(tmp_path, {"friction_coefficient": 0.05})
     friction = f'[model]\nname = "better"\nreducer = "{REDUCER}"\n\n[effects.stribeck_friction]\nfriction_coefficient = "0.05 1"\n'
     step = '\n[[steps]]\ncampaign = "zeros"\neffects = ["stribeck_friction.mesh"]\nkept = true\n\n[steps.nuisances]\n"angle_zero[1]" = 0.0\n'
     found = []

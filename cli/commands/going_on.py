@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 def line_after(options: argparse.Namespace, answer: "Answer") -> str:
     """The command with which one goes on from a diagnosis; empty where there is nothing that a command could add."""
     from discrepancy.compare import another_reducer
-    from discrepancy.doubts.hidden_by_position import POSITION
-    from discrepancy.held_names import LOCKED_AT
+    from discrepancy.held_names import LOCKED_AT, LOCKED_POSITION
     from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, SET, UNKNOWN
 
     if answer.verdict == NONE:
@@ -44,7 +43,7 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
         INCOMPLETE: ("extend", [*by_name, "--output", "better.toml"],
                      f"adds {'the likeliest of these' if foremost else 'what is named'}, and judges it on runs that were not used"),
     }.get(answer.verdict, ("extend", ["--output", "better.toml"], "adds it, and judges it on runs that were not used"))
-    if command == "extend" and any(effect["name"] == POSITION for effect in answer.effects):
+    if command == "extend" and any(effect["name"] == LOCKED_POSITION for effect in answer.effects):
         what += f"; a position belongs to the bench: state {LOCKED_AT} in the campaign's condition instead where it is known"
     return f"{shlex.join(['rvwear', command, options.model, options.campaign, *data, *more])}    # {what}"
 

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from discrepancy.campaign.unplaced import REMEDY
+from discrepancy.held_names import LOCKED_POSITION
 from discrepancy.inference.base_fit.components import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
@@ -17,14 +18,13 @@ from discrepancy.words.as_told import told_name
 from fmu_src.arrays import Floats
 from fmu_src.table import Table
 
-POSITION = "locked_position"
 # Of what a loop tells of an effect, what at most is left beside a position of those that it hides; so many of them are said.
 HIDDEN, MOST_SAID = 0.1, 3
 
 
 def hidden_by_position(doctor: Diagnostician, found: Diagnosis, tables: Sequence[Table]) -> list[str]:
     """One sentence where a position is named: how much of what looks like it may be in the loops besides; empty where it is not."""
-    holding = next((m for m in found.fits.members if POSITION in (effect_of(c.name) for c in m.candidates)), None)
+    holding = next((m for m in found.fits.members if LOCKED_POSITION in (effect_of(c.name) for c in m.candidates)), None)
     columns: Columns | None = getattr(doctor, "columns", None)
     if holding is None or columns is None:
         return []

@@ -4,8 +4,7 @@ import math
 from collections.abc import Mapping
 
 from discrepancy.campaign.unplaced import QUESTION, REMEDY, unplaced_in
-from discrepancy.doubts.hidden_by_position import POSITION
-from discrepancy.held_names import LOCKED_AT
+from discrepancy.held_names import LOCKED_AT, LOCKED_POSITION
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.verdict import Diagnosis
 from discrepancy.prediction.by_effects import Effects
@@ -16,7 +15,7 @@ from discrepancy.problem import effect_of, is_unplaced
 def without_place(model: PhysicalModel, found: Diagnosis) -> list[str]:
     """Conditions of such loops that no place was found for beside what is named; none where that is a position itself."""
     conditions = unplaced_in(model.records)
-    if not conditions or (found.fits.members and POSITION in (effect_of(c.name) for c in found.fits.members[0].candidates)):
+    if not conditions or (found.fits.members and LOCKED_POSITION in (effect_of(c.name) for c in found.fits.members[0].candidates)):
         return []
     places = model.unstated_places.taken(*named_by(found))
     return [condition for condition in conditions if condition not in places]

@@ -9,8 +9,8 @@ import numpy as np
 
 from discrepancy.alike.ring_directions import by_symmetry
 from discrepancy.campaign.model import Campaign
-from discrepancy.doubts.hidden_by_position import POSITION
 from discrepancy.experiment.rig_runs import Measurement, at_a_position, at_rated, describe, possible
+from discrepancy.held_names import LOCKED_POSITION
 from discrepancy.inference.chi_square import chi_text
 from discrepancy.inference.next_experiment import ENOUGH, NextExperiment, Proposal, RivalLaw, next_experiment, rival_of
 from discrepancy.inference.noise.series import stream_of
@@ -35,7 +35,7 @@ MOST_FORMS = 4
 def weighed(answer: "Answer", campaign: Campaign, rivals: Sequence[RivalLaw]) -> NextExperiment:
     """Every experiment that the rig can do, held against what the rivals predict of it."""
     experiments = possible(answer.model, campaign, answer.diagnosis.fits.space)
-    if any(POSITION in rival.name for rival in rivals):
+    if any(LOCKED_POSITION in rival.name for rival in rivals):
         experiments += [at_a_position(e, campaign) for e in experiments if is_unplaced(e.record)]
 
     def predict(rival: RivalLaw, values: Mapping[str, float], experiment: Measurement) -> Floats:

@@ -153,7 +153,7 @@ class Diagnostician:
         settings = self.settings
         local = self.prepare()
         self.outlook.fitted(self.space.base)
-        say(misfit_text(self.localisation))
+        say(misfit_text(local))
         self.doing = "screening"
         rivals, start = self.calibrated(first)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
@@ -181,7 +181,7 @@ class Diagnostician:
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
-        if self.begins_anew(final):
+        if final is not start and self.begins_anew(final):
             return self.walk(first)
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)

@@ -199,13 +199,14 @@ def told_together(candidate: Candidate, numbers: Mapping[str, Estimate]) -> list
 
 def told_over(candidate: Candidate, member: Refit) -> list[str]:
     """Of amplitudes of an effect that are told only beside a number that is assumed, that they are, and how it is stated."""
-    parameters, texts = member.fit.parameters, []
-    for p, q in ((parameters[k], parameters[j]) for k, j in carried(member)):
+    fit, texts = member.fit, []
+    for k, j in carried(member):
+        p, q = fit.parameters[k], fit.parameters[j]
         if any(p is a for a in candidate.amplitudes):
-            alone = 1.0 / np.sqrt(member.fit.normal[member.fit.names.index(p.name), member.fit.names.index(p.name)])
+            alone = 1.0 / np.sqrt(fit.normal[k, k])
             texts.append(
                 f"{candidate.name}: {p.name} is told only beside {q.name} ({q.description}), which is taken as {q.off:g} {q.unit} give or take {q.prior:g}: its"
-                f" interval is that of {q.name}, with that known it is told to {100.0 * alone / abs(member.fit.values[p.name] - p.off):.1f} %; where it was"
+                f" interval is that of {q.name}, with that known it is told to {100.0 * alone / abs(fit.values[p.name] - p.off):.1f} %; where it was"
                 f' measured state it in campaign.toml, [nuisances.{q.name}] with unit = "{q.unit}", start, lower, upper and prior'
             )
     return texts

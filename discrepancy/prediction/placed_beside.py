@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from discrepancy.held_names import HELD
+from discrepancy.held_names import HELD, LOCKED_POSITION
 from discrepancy.prediction.angle_zeros import best_zeros, likely_in_turn, telling
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.by_effects import Effects, with_most
@@ -20,9 +20,6 @@ from discrepancy.prediction.unstated_places import UnstatedPlaces
 from discrepancy.prediction.zero_bounds import ZeroBounds
 from discrepancy.problem import ERROR, Places, Record, effect_of, is_unplaced
 from fmu_src.arrays import Floats
-
-# The effect that stands for a position of which nobody says it.
-LOCKED_POSITION = "locked_position"
 
 
 class PlacedBeside:
@@ -89,7 +86,7 @@ class PlacedBeside:
             return False
         predicted = partial(self.loop_at, every)
         found = self.unstated_places.place(effects, every, predicted, partial(self.error_with, every, effects))
-        return found or (fitted and not self.unstated_places.taken(effects, every) and self.unstated_places.place_alone(predicted))
+        return found or (fitted and self.unstated_places.place_alone(predicted))
 
     def place_alone(self, instead_of: str, values: Mapping[str, float]) -> bool:
         """See ``problem.PlacedAlone``: inputs that were locked at one position."""

@@ -101,10 +101,14 @@ class UnstatedPlaces:
 
     def place_alone(self, predicted: LoopAt) -> bool:
         """Looks for the places without any effect, which transmission errors beside would tell; False, and nothing changes, where one has none."""
-        places = {condition: self.searched(loop, predicted, None) for condition, loop in self.loops.items()} if self.errors else {}
-        found = {condition: place for condition, place in places.items() if place is not None}
-        if not found or len(found) < len(places) or self.found.get(frozenset()):
+        if not self.loops or not self.errors or self.found.get(frozenset()):
             return False
+        found = {}
+        for condition, loop in self.loops.items():
+            place = self.searched(loop, predicted, None)
+            if place is None:
+                return False
+            found[condition] = place
         self.found[frozenset()] = found
         return True
 

@@ -75,6 +75,10 @@ class Workspace:
             return list(range(len(self.records)))
         return [i for i, r in enumerate(self.records) if r.quantity in candidate.signals]
 
+    def furthest_off(self, candidate: Candidate) -> int:
+        """Of the training records that a candidate can touch the one with the largest misfit of the base fit."""
+        return max((i for i in self.touched(candidate) if i in self.rows), key=lambda i: float(np.sum(self.base.residual[self.rows[i]] ** 2)))
+
     def residual(self, values: Mapping[str, float]) -> Floats:
         ys = self.predictions(values, self.training)
         return self.whiten({i: self.records[i].values - y for i, y in zip(self.training, ys)})

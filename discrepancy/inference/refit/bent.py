@@ -69,7 +69,7 @@ def along_valley(space: Workspace, fit: Fit, candidate: Candidate, rate: float) 
     lefts = [left for left, _ in placed]
     if not any(lefts):
         # Nothing is placed: the record with the largest misfit says as well which places are likely.
-        one = space.only([max((i for i in space.touched(candidate) if i in space.rows), key=lambda i: float(np.sum(space.base.residual[space.rows[i]] ** 2)))])
+        one = space.only([space.furthest_off(candidate)])
         lefts = space.threads.map(lambda start: total_cost(one, box, start)[0], starts)
     starts = foremost(starts, lefts, MOST_WEIGHED)
     by_cost: Sequence[float] = space.threads.map(lambda start: total_cost(space, box, start)[0], starts)

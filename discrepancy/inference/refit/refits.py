@@ -86,7 +86,7 @@ class Refits:
         directions = [p.name for p in candidate.shapes if p.is_direction]
         forms = [{**base.values, **typical, **{p.name: p.off for p in candidate.shapes}, **shape} for shape in candidate.shape_grid or ({},)]
         starts = [{**form, **place} for form in forms for place in ({}, *model.waves_on(form, directions)[0])]
-        one = max((i for i in space.touched(candidate) if i in space.rows), key=lambda i: float(np.sum(base.residual[space.rows[i]] ** 2)))
+        one = space.furthest_off(candidate)
         alone = space.only([one])
 
         def left(start: dict[str, float]) -> float:
