@@ -11,8 +11,9 @@ from discrepancy.problem import ERROR, FREE_ZERO, ORDERS, Record
 from discrepancy.rounding import SERIES, jumps_of, noise_of
 from fmu_src.arrays import Floats
 
-# What interpolation may add to the chi-square of a condition's signal, root: far below what noise adds, spread over all orders.
-SEEN = 2.0
+# What interpolation may add to the chi-square of a condition's signal, spread over all orders: so much, or such a share of the standard deviation that
+# noise gives it.
+SEEN, OF_NOISE = 4.0, 0.1
 # What equilibria are solved to [rad] (``units.TOLERANCE``; two ways to one equilibrium differ by a tenth of it): an angle below needs no nodes.
 SOLVED = 5e-11
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
@@ -62,7 +63,7 @@ class Fineness:
                 whole.add(group)
             own = record.stated_noise or scatter if record.quantity == ORDERS else fast_noise(np.asarray(record.values, float))
             noise[group] = min(noise.get(group, np.inf), own)
-        self.allowed = {g: max(SEEN * noise[g] / float(np.sqrt(count)), SOLVED if g[0] in FREE_ZERO else 0.0) for g, count in counts.items()}
+        self.allowed = {g: max(noise[g] * float(np.sqrt(hidden(count) / count)), SOLVED if g[0] in FREE_ZERO else 0.0) for g, count in counts.items()}
         # Where only orders were measured, nodes for these may do: what lies between shows as their error.
         self.orders = set(counts) - whole
         self.base: dict[Group, int] = {}
@@ -150,6 +151,11 @@ class Fineness:
             level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
             before = error
         return EVERY_SAMPLE
+
+
+def hidden(count: int) -> float:
+    """What may be added to a chi-square of so many samples without anyone noticing."""
+    return max(SEEN, OF_NOISE * float(np.sqrt(2.0 * count)))
 
 
 def added(group: Group, amounts: Mapping[str, float]) -> Added:

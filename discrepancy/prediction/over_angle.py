@@ -216,7 +216,8 @@ def shifted_errors(bench: Bench, record: Record, values: Values, zeros: Floats) 
     nodes = angle_nodes(ends, curve.condition.direction, LEVEL_OF_A_PATTERN, always=True)
     assert nodes is not None
     series = curve.run(values, nodes)
-    return [nodes.samples(series, curve.places({angle_zero(record): float(zero)})) for zero in zeros]
+    places = [curve.places({angle_zero(record): float(zero)}) for zero in zeros]
+    return np.split(nodes.samples(series, np.concatenate(places)), len(places))
 
 
 def error_change(bench: Bench, record: Record, values: Values, base: Values) -> Floats | None:

@@ -64,7 +64,7 @@ def along_valley(space: Workspace, fit: Fit, candidate: Candidate, rate: float) 
         {**fit.values, first.name: first.off + along * first.scale, second.name: second.off + (rate * along + across) * second.scale}
         for along, across in product(ALONG, ACROSS) if abs(along) <= reach[0] and abs(rate * along + across) <= reach[1]
     ]  # fmt: skip
-    placed = [model.placed_anew(form) if isinstance(model, Placing) else (0.0, {}) for form in forms]
+    placed = space.threads.map(lambda form: model.placed_anew(form) if isinstance(model, Placing) else (0.0, {}), forms)
     starts: list[Mapping[str, float]] = [{**form, **places} for form, (_, places) in zip(forms, placed)]
     lefts = [left for left, _ in placed]
     if not any(lefts):
