@@ -144,6 +144,7 @@ class Parameter:
     standard deviation around ``off`` known from elsewhere (None: nothing is known).
     ``of_base``: what the base model itself gets wrong; where it is large, the base is off.
     ``counts``: the number of a part; between two a fit may have optima of its own.
+    ``said``: where the base model's file says that its number lies, if it may be elsewhere all the same.
     """
 
     name: str
@@ -157,6 +158,7 @@ class Parameter:
     description: str = ""
     of_base: bool = False
     counts: bool = False
+    said: tuple[float, float] | None = None
 
     def is_off(self, value: float) -> bool:
         """Whether a value is ``off``, but for what a solver leaves."""

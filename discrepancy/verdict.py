@@ -182,7 +182,8 @@ def answer_of(model: PhysicalModel, doctor: Diagnostician, found: Diagnosis, fig
     verdict = found.verdict
     names = list(dict.fromkeys(e["name"] for e in effects))
     beside = "or it is the base model that is off" if verdict == SET else "beside that the base model is off"
-    reason = found.reason + (f"; {beside}: {', '.join(e.name for e in found.base_off)}" if effects and found.base_off else "")
+    off = ", ".join(as_told.told_name(e.name, as_told.tables_of(model)) for e in found.base_off)
+    reason = found.reason + (f"; {beside}: {off}" if effects and off else "")
     if verdict == NONE and (figure := beside_none(figures, doctor.space, doctor.localisation.groups)):
         reason += f"; {figure}"
     if verdict in (SET, SEVERAL) and len(names) == 1:

@@ -11,13 +11,14 @@ from discrepancy.extend import extend
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.diagnose import diagnose as inferred
 from discrepancy.inference.screening import screen
-from discrepancy.inference.verdict import BASE_OFF, NONE, ONE, UNKNOWN, Settings, decide
+from discrepancy.inference.verdict import BASE_OFF, NONE, ONE, UNKNOWN, BaseError, Settings, decide
 from discrepancy.model_file import load_model, save_model
 from discrepancy.prediction.base_numbers import base_numbers
 from discrepancy.prediction.physical_model import PhysicalModel
 from discrepancy.problem import BASE, Candidate, Parameter, Record
 from discrepancy.repetitions import outlying, with_left_out
 from discrepancy.verdict import diagnose
+from discrepancy.words.wording import beyond_text
 from fmu_src.faults import InputFault
 from reducers.reducer import load_reducer
 
@@ -138,6 +139,20 @@ def test_numbers_that_are_declared_set_or_an_effect_of_the_catalogue_are_no_cand
 def test_number_at_an_end_of_its_range_goes_one_way():
     numbers = {c.name: c.amplitudes[0] for c in base_numbers(load_reducer("RV20E-121-rigid"), ())}
     assert numbers["base.pressure_viscosity"].sign == 1 and numbers["base.mesh_stiffness"].sign == 0
+
+
+def test_number_may_be_beyond_its_range_where_it_is_no_length():
+    numbers = {c.name: c.amplitudes[0] for c in base_numbers(load_reducer("RV20E-121-rigid"), ())}
+    stiffness, radius = numbers["base.roller_stiffness"], numbers["base.crank_circle_radius"]
+    assert stiffness.said == (4.7e5, 5.5e5) and (stiffness.lower, stiffness.upper) == (2.55e5, 1.02e6)
+    assert radius.said == (radius.lower, radius.upper)
+    # Known beforehand by its range all the same.
+    assert stiffness.prior == pytest.approx(12.0**-0.5 * 0.8e5)
+
+
+def test_number_beyond_its_range_is_said_to_be():
+    said, beyond = (BaseError("roller_stiffness", "t", value, (value - 1e3, value + 1e3), "N", 5.1e5, (4.7e5, 5.5e5), 9.0) for value in (4.8e5, 3.7e5))
+    assert beyond_text(said) == "" and beyond_text(beyond) == ", beyond which it is"
 
 
 def test_sizes_that_were_seen_at_other_places_are_computed_whole(monkeypatch):

@@ -24,7 +24,7 @@ def base_errors(space: Workspace, members: Sequence[Refit], inflation: Callable[
         for c in own:
             for p in c.amplitudes:
                 e = numbers[p.name]
-                found.setdefault(p.name, BaseError(p.name, p.description, e.value, e.interval, p.unit, p.off, (p.lower, p.upper), member.gain))
+                found.setdefault(p.name, BaseError(p.name, p.description, e.value, e.interval, p.unit, p.off, p.said or (p.lower, p.upper), member.gain))
     return [*found.values(), *computed_wrongly(members[0].fit if members else space.base, coverage)]
 
 

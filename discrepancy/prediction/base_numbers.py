@@ -9,6 +9,8 @@ from reducers.reducer import Reducer
 SPREAD = 12.0**-0.5
 # Typical error, for steps, over that deviation.
 STEP = 0.5
+# So many times its value, or such a part of it, a number may be all the same where what was measured outweighs its source; a length was read off a drawing.
+BEYOND, LENGTH = 2.0, "m"
 # The catalogue has an effect that is this number's error: it is named by that.
 AS_EFFECTS = ("bearing_clearance", "output_clearance", "equidistant_modification", "shift_modification", "load_exponent", "run_in_ratio", "run_in_time")
 
@@ -24,6 +26,9 @@ def base_numbers(reducer: Reducer, taken: Container[str]) -> list[Candidate]:
         text = f"{variable.description} ({reducer.sources[name].partition(':')[0]})"
         value = reducer.starts[name]
         sign = 1 if value == low else -1 if value == high else 0
-        number = Parameter(name, variable.unit, value, low, high, STEP * deviation, sign, deviation, text)
+        least, most = low, high
+        if sign == 0 and variable.unit != LENGTH:
+            least, most = min(low, value / BEYOND), max(high, value * BEYOND)
+        number = Parameter(name, variable.unit, value, least, most, STEP * deviation, sign, deviation, text, said=(low, high))
         found.append(Candidate(f"{BASE}.{name}", f"{variable.path} of the reducer file", (number,), part=BASE))
     return found

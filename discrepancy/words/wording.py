@@ -9,7 +9,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.compare import by_signal, runs_of
 from discrepancy.extend import BETTER
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE
-from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, StandIn
+from discrepancy.inference.verdict import BASE_OFF, INCOMPLETE, NONE, ONE, SET, SEVERAL, STOPPED, UNKNOWN, BaseError, StandIn
 from discrepancy.scales import estimate_texts, of_estimate, of_parameter, parameter_texts, shown
 from discrepancy.verdict import Answer
 from discrepancy.words.as_told import tables_of, told_name
@@ -149,10 +149,15 @@ def base_texts(answer: Answer) -> list[str]:
         value, interval, unit = parameter_texts(e.value, e.interval, e.unit)
         held = of_parameter(abs(e.assumed) or abs(e.value), e.unit)
         share = f", {100.0 * (e.value / e.assumed - 1.0):+.1f} %" if e.assumed else ""
-        range_text = held.span(*e.within) if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
+        range_text = held.span(*e.within) + beyond_text(e) if e.explains is not None else f"standard deviation {held.text(e.within[1] - e.assumed, 3)}"
         name = told_name(e.name, tables_of(answer.model))
         texts.append(f"{name} = {value}{unit and f' {unit}'} (95 %: {interval}){share}; assumed {held.text(e.assumed)} ({range_text}); {e.title}")
     return texts
+
+
+def beyond_text(e: BaseError) -> str:
+    """Where a number of the file is found to be where its file says that it is not."""
+    return "" if e.within[0] <= e.value <= e.within[1] else ", beyond which it is"
 
 
 def left_text(answer: Answer) -> str:
