@@ -98,13 +98,18 @@ class Selection(Alone):
         return current
 
     def in_earnest(self, trials: Sequence[Refit], before: float) -> Refit:
-        """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next.  ``before``: see ``ranked``."""
-        found = []
-        for trial in ranked(trials, self.settings.margin, before)[:MOST_IN_EARNEST]:
+        """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next, and what is less ahead of the next
+        than predictions in earnest move it is compared with that in earnest.  ``before``: see ``ranked``."""
+        order = ranked(trials, self.settings.margin, before)
+        found: list[Refit] = []
+        moved, holds = 0.0, False
+        for trial in order[:MOST_IN_EARNEST]:
+            if holds and penalised(trial) - penalised(order[0]) > moved:
+                break
             found += self.tried("fitting in earnest", self.refits.renewed, [trial])
-            if found[-1].fit.chi2 <= self.near(trial):
-                return found[-1]
-        return min(found, key=penalised)
+            moved = max(moved, abs(trial.fit.chi2 - found[-1].fit.chi2))
+            holds = holds or found[-1].fit.chi2 <= self.near(trial)
+        return ranked(found, self.settings.margin, before)[0]
 
     def exchanged(self, first: str, newest: str, gain: float, close: Sequence[Score] = ()) -> list[Refit]:
         """Fits of the newest effect beside others than the first that may gain as much together: what explains most, and what was ``close`` to the first."""
