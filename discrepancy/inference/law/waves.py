@@ -21,7 +21,8 @@ FEWEST, STEP, FINE = 0.75, 0.25, 0.02
 RESOLVED = 0.45
 # Chi-square that a wave must gain beyond what the best of so many orders does by chance (assumed: once in some thousand).
 BEYOND_CHANCE = 20.0
-TOGETHER = 64
+# Samples of waves that are held at a time, and that are looked through at most: beyond some ten thousand samples a turn the highest orders are left out.
+TOGETHER, MOST = 1 << 20, 1 << 28
 
 WAYS: dict[str, Callable[[Mapping[str, float]], float]] = {
     "none": lambda f: 1.0, "load": lambda f: f.get("load", 0.0), "direction": lambda f: f.get("direction", 1.0),
@@ -95,6 +96,7 @@ def wave_of(space: Workspace, fit: Fit, indices: Sequence[int], zeros: Mapping[s
     rate = min(2.0 * math.pi / float(np.median(np.abs(np.diff(a)))) for a in runs.values())
     least, most = 2.0 * math.pi * FEWEST / span, RESOLVED * rate
     step = 2.0 * math.pi * STEP / span
+    most = min(most, least + step * MOST / sum(map(len, runs.values())))
     if most <= least + step:
         return None
     orders, found = np.arange(least, most, step), []
@@ -160,16 +162,18 @@ def gains(
         for i, weight in weights.items():
             row[space.rows[i]] = weight
     square, even = rows**2, dict.fromkeys(runs, 1.0)
-    found: list[list[tuple[float, float]]] = [[] for _ in ways]
-    for start in range(0, orders.size, TOGETHER):
-        some = orders[start : start + TOGETHER]
+    count = max(1, TOGETHER // space.size)
+
+    def told(some: Floats) -> Floats:
         cos, sin = columns(space, runs, even, some)
         cc, ss, cs = square @ (cos * cos), square @ (sin * sin), square @ (cos * sin)
         ce, se = (rows * misfit) @ cos, (rows * misfit) @ sin
         determinant = np.maximum(cc * ss - cs * cs, 1e-12 * cc * ss + 1e-300)
-        for told, gain in zip(found, (ss * ce * ce - 2.0 * cs * ce * se + cc * se * se) / determinant):
-            told += zip(gain.tolist(), some.tolist())
-    return found
+        found: Floats = (ss * ce * ce - 2.0 * cs * ce * se + cc * se * se) / determinant
+        return found
+
+    gained = np.hstack(space.threads.map(told, [orders[start : start + count] for start in range(0, orders.size, count)]))
+    return [list(zip(row.tolist(), orders.tolist())) for row in gained]
 
 
 def refined(space: Workspace, runs: Mapping[int, Floats], misfit: Floats, way: str, order: float, growth: Growth | None = None) -> Wave:
