@@ -267,9 +267,9 @@ class Placing(Protocol):
         """All that is placed beside the effects in ``values`` goes where ``places`` have it."""
         ...
 
-    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[Sequence[dict[str, float]], Sequence[int], Sequence[int]]:
+    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[Sequence[dict[str, float]], Sequence[int]]:
         """Other places that look alike without the effects in ``values``, and may not with them: by name, each to be tried at once, with those of the
-        ``directions`` of the effects that stand elsewhere there; then the records by which effects are found there, and all that tell."""
+        ``directions`` of the effects that stand elsewhere there; then the records by which effects are found there."""
         ...
 
 

@@ -143,8 +143,8 @@ class PlacedBeside:
         """Where everything is kept that is found beside effects."""
         return self.locked_places.found, self.lags.found, self.locked_waves.found, self.unstated_places.found, self.cages.ahead, self.cages.ripples
 
-    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int], list[int]]:
-        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; transmission errors tell, of each load one is enough.
+    def waves_on(self, values: Mapping[str, float], directions: Sequence[str]) -> tuple[list[dict[str, float]], list[int]]:
+        """See ``problem.Placing``: zeros found by the pattern, where the discs have changed places; of transmission errors one of each load is enough.
 
         What is fixed to the discs has turned with them by their share of a turn there, what is fixed to ring or carrier has not.
         """
@@ -159,7 +159,7 @@ class PlacedBeside:
                 found += [there, there | turned] if turned else [there]
         errors = [i for i, r in enumerate(self.records) if r.quantity == ERROR and r.fitted and angle_zero(r) in self.zeros]
         few = {(angle_zero(self.records[i]), self.records[i].factors.get("load")): i for i in errors}
-        return found, sorted(few.values()), errors
+        return found, sorted(few.values())
 
     def stands_elsewhere(self, values: Mapping[str, float]) -> bool:
         """See ``problem.Settling``: inputs were locked elsewhere, or outputs lag by more."""

@@ -22,7 +22,7 @@ RESOLVED = 0.45
 # Chi-square that a wave must gain beyond what the best of so many orders does by chance (assumed: once in some thousand).
 BEYOND_CHANCE = 20.0
 # Samples of waves that are held at a time, and that are looked through at most: beyond some ten thousand samples a turn the highest orders are left out.
-TOGETHER, MOST = 1 << 20, 1 << 28
+TOGETHER, MOST = 1 << 20, 1 << 29
 
 WAYS: dict[str, Callable[[Mapping[str, float]], float]] = {
     "none": lambda f: 1.0, "load": lambda f: f.get("load", 0.0), "direction": lambda f: f.get("direction", 1.0),

@@ -228,7 +228,7 @@ class Refits:
         unseen = bool(model.unseen(result.fit.values))
         if not unseen and result.fit.chi2 > EXPLAINS * self.space.base.chi2 and result.gain < TELLS_ZEROS:
             return result
-        places, some, _ = model.waves_on(result.fit.values, directions)
+        places, some = model.waves_on(result.fit.values, directions)
         if not unseen and self.zeros_are_told(result, places):
             return result
         few = self.space.only(some)
@@ -243,13 +243,12 @@ class Refits:
             # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
             turned = [{p.name: other for p, other in half_a_turn_on(result.candidates, fit.values)} for fit in begun]
             begun += [replace(fit, values={**fit.values, **others}) for fit, others in zip(begun, turned) if others]
-        # Loops hold what the lag leaves open: of many samples even the place of cages may count for more than the wave.
-        telling = self.space.training
-        every, before, left, found = self.space.only(telling), model.places(predictions.active(result.fit.values)), [], []
+        # By all records: loops hold what the lag leaves open, and of many samples even the place of cages may count for more than the wave.
+        before, left, found = model.places(predictions.active(result.fit.values)), [], []
         for fit in begun:
             predictions.put(fit.values, before)
-            predictions.settle(fit.values, telling)
-            left.append(left_by(every, fit))
+            predictions.settle(fit.values, self.space.training)
+            left.append(left_by(self.space, fit))
             found.append(model.places(predictions.active(fit.values)))
         best = int(np.argmin(left))
         chosen = 0 if left[best] > left[0] - SURELY else best
