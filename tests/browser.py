@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +56,14 @@ class Bench:
     def view(self, name):
         self.page.goto(f"{self.address}#{name}")
         self.page.locator(f"#tab-{name}[aria-selected=true]").wait_for()
+
+
+def until(page, told, argument=None, seconds=30.0):
+    """Waits until JavaScript tells something; ``page.wait_for_function`` evaluates in the page later on, which the workbench forbids its pages."""
+    end = time.monotonic() + seconds
+    while not page.evaluate(told, argument):
+        assert time.monotonic() < end, f"after {seconds:g} s: {told}"
+        page.wait_for_timeout(50)
 
 
 def loop_file(path: Path, rows: int, stiffness: float) -> Path:

@@ -12,7 +12,7 @@ import time
 import tomllib
 
 import pytest
-from browser import ANSWER, EXAMPLE, ROOT, dropped
+from browser import ANSWER, EXAMPLE, ROOT, dropped, until
 
 from fmu_src.faults import InputFault
 from workbench.folder import opened
@@ -53,7 +53,7 @@ def test_a_bad_file_stands_in_its_row_and_a_server_that_is_gone_says_so(bench, t
     # A view that was never opened cannot be had: nothing is thrown, and what is seen stays.
     page.click("#tab-try")
     page.locator("#tab-in[aria-selected=true]").wait_for()
-    page.wait_for_function("location.hash === '#in'")
+    until(page, "location.hash === '#in'")
     assert gone.is_visible() and page.locator("#work").is_hidden()
     bench.start()
     page.goto(bench.address)
@@ -175,7 +175,7 @@ def test_what_was_corrected_is_there_in_two_tabs_and_after_a_killed_server(bench
     page.select_option("#measured", "RV20E-121")
     page.locator("#save:enabled").wait_for()
     page.get_by_role("combobox", name="locked").select_option("output")
-    page.wait_for_function("document.querySelector('label.inline select') !== null")
+    until(page, "document.querySelector('label.inline select') !== null")
     other = bench.tab()
     other.goto(f"{bench.address}#in")
     other.locator("select[aria-label=quantity]").wait_for()
@@ -198,7 +198,7 @@ def test_a_campaign_that_was_written_elsewhere_is_corrected_cell_by_cell(bench):
     page.locator("#cells-conditions summary").click()
     page.get_by_label("temperature of loop1").fill("11 degC")
     page.keyboard.press("Tab")
-    page.wait_for_function("document.activeElement.id === 'cell-conditions-loop1-hours'")
+    until(page, "document.activeElement.id === 'cell-conditions-loop1-hours'")
     page.locator("#cells-runs summary").click()
     page.get_by_label("unit of value in loop1_loop_1").fill("arcmim")
     page.keyboard.press("Tab")

@@ -2,7 +2,7 @@
 
 import re
 
-from browser import ANSWER, dropped, loop_file
+from browser import ANSWER, dropped, loop_file, until
 
 from workbench.folder import opened
 
@@ -65,7 +65,7 @@ def test_cells_that_make_conditions_alike_join_them_and_a_cell_of_both_says_it_o
     page.get_by_text("2 runs in 2 files, 1 condition", exact=True).wait_for()
     cells.nth(0).fill("30")
     page.keyboard.press("Tab")
-    page.wait_for_function("document.querySelector('[aria-label=temperature]').value === '30'")
+    until(page, "document.querySelector('[aria-label=temperature]').value === '30'")
     assert page.get_by_text("2 runs in 2 files, 1 condition", exact=True).count() == 1
     cells.nth(0).fill("")
     page.keyboard.press("Tab")

@@ -1,5 +1,7 @@
 """Tables of the workbench, in headless Chromium: columns for what no file says, answers to "why?" in rows of their own, judged by what can judge."""
 
+from browser import until
+
 
 def test_hours_and_directions_that_no_name_says_get_a_column(bench, tmp_path):
     """A check asked for them, and In had no place for either."""
@@ -17,7 +19,7 @@ def test_hours_and_directions_that_no_name_says_get_a_column(bench, tmp_path):
     chosen = page.locator("select[aria-label='direction']")
     chosen.wait_for()
     chosen.select_option("reverse")
-    page.wait_for_function("[...document.querySelectorAll('select[aria-label=direction]')].some((s) => s.value === 'reverse')")
+    until(page, "[...document.querySelectorAll('select[aria-label=direction]')].some((s) => s.value === 'reverse')")
     page.select_option("#measured", "RV20E-121")
     page.locator("#save:enabled").wait_for()
     assert "fault" not in page.evaluate("async () => (await fetch('in/save', { method: 'POST', body: '{}' })).text()")

@@ -4,7 +4,7 @@ import json
 import shutil
 
 import pytest
-from browser import EXAMPLE
+from browser import EXAMPLE, until
 
 
 @pytest.mark.campaign
@@ -98,7 +98,7 @@ def test_an_effect_that_is_opened_under_try_is_seen_to_its_end(bench):
       const list = document.querySelector('ul.list').getBoundingClientRect(), item = document.querySelector('#lowest').getBoundingClientRect();
       return [item.height, item.top >= list.top - 1, item.bottom <= Math.min(list.bottom, innerHeight) + 1];
     }"""
-    page.wait_for_function(f"({seen})()[2]", timeout=5_000)
+    until(page, f"({seen})()[2]", seconds=5.0)
     tall, from_top, to_bottom = page.evaluate(seen)
     assert 100 < tall < height and from_top and to_bottom
 
@@ -162,12 +162,12 @@ def test_a_move_under_try_does_not_wait_for_the_exact_curve(bench):
     page.fill("input[type=search]", "clearance")
     page.locator("[data-parameter=gap]").focus()
     page.keyboard.press("ArrowRight")
-    page.wait_for_function("() => document.querySelector('#followed')?.textContent.includes('first look')")
+    until(page, "() => document.querySelector('#followed')?.textContent.includes('first look')")
     while not held:
         page.wait_for_timeout(50)
     before = page.locator("#followed").inner_text()
     page.keyboard.press("ArrowRight")
-    page.wait_for_function("(before) => !document.querySelector('#followed').textContent.startsWith(before.slice(0, 50))", arg=before)
+    until(page, "(before) => !document.querySelector('#followed').textContent.startsWith(before.slice(0, 50))", before)
     after = page.locator("#followed").inner_text()
     assert asked[-1] is True and "first look" in after
     held[0][0].fulfill(body=held[0][1])
