@@ -100,7 +100,8 @@ class Alone:
             # What is placed beside an effect is placed beside the base model until it is seen.
             near = max(near, fits[0].fit.chi2 + FAR)
         near += self.refits.gained_in_earnest(first[0])
-        others = self.tried("fitting in earnest", partial(self.as_reported, self.as_good(first[0])), [f for f in fits[1:] if f.fit.chi2 < near])
+        least = self.as_good(first[0]) + self.refits.gained_elsewhere(first[0])
+        others = self.tried("fitting in earnest", partial(self.as_reported, least), [f for f in fits[1:] if f.fit.chi2 < near])
         behind = [f for f in fits[1:] if f.fit.chi2 >= near]
         unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]
         for fit in unfinished:

@@ -230,5 +230,6 @@ class Selection(Alone):
         twins = [s for s in others if s not in chosen and effect_of(s.name) in alike]
         rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
         # What is roughly near is looked at in earnest; only what may stand there is fitted so.
-        reported = self.tried(f"{what}, in earnest", partial(self.as_reported, self.as_good(final, gained)), [r for r in rivals if r.fit.chi2 < near])
+        least = self.as_good(final, gained) + self.refits.gained_elsewhere(final)
+        reported = self.tried(f"{what}, in earnest", partial(self.as_reported, least), [r for r in rivals if r.fit.chi2 < near])
         return [*reported, *(r for r in rivals if r.fit.chi2 >= near)]

@@ -57,6 +57,8 @@ class Refits:
         self.final_fits: dict[frozenset[str], Refit] = {}
         # What a fit's chi-square fell by when it was made in earnest.
         self.gained: dict[frozenset[str], float] = {}
+        # Of that, what it fell by where it went to another zero of angles that looked alike without it.
+        self.gained_there: dict[frozenset[str], float] = {}
         self.widely: set[frozenset[str]] = set()
         # Where effects stood when the cages were placed with them, and the rough chi-square there; whether there were any to be placed.
         self.settled: dict[frozenset[str], tuple[dict[str, float], float]] = {}
@@ -243,16 +245,25 @@ class Refits:
             # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
             turned = [{p.name: other for p, other in half_a_turn_on(result.candidates, fit.values)} for fit in begun]
             begun += [replace(fit, values={**fit.values, **others}) for fit, others in zip(begun, turned) if others]
-        # By all records: loops hold what the lag leaves open, and of many samples even the place of cages may count for more than the wave.
-        before, left, found = model.places(predictions.active(result.fit.values)), [], []
+        before, left, by_errors, found = model.places(predictions.active(result.fit.values)), [], [], []
         for fit in begun:
             predictions.put(fit.values, before)
             predictions.settle(fit.values, self.space.training)
             left.append(left_by(self.space, fit))
+            by_errors.append(left_by(few, fit))
             found.append(model.places(predictions.active(fit.values)))
         best = int(np.argmin(left))
+        if not unseen and (other := int(np.argmin(by_errors))) != best:
+            # Loops hold what a lag leaves open, but a wrong zero has bent what they alone tell, too: a fit of all says which is right.
+            for k in (best, other):
+                predictions.put(begun[k].values, found[k])
+                begun[k] = replace(result.fit, values=from_there(self.space, result.fit, begun[k].values))
+                left[k] = left_by(self.space, begun[k])
+                found[k] = model.places(predictions.active(begun[k].values))
+            best = int(np.argmin(left))
         chosen = 0 if left[best] > left[0] - SURELY else best
         predictions.put(begun[chosen].values, found[chosen])
+        self.gained_there[result.key] = max(left[0] - left[chosen], self.gained_there.get(result.key, 0.0))
         return result if chosen == 0 else replace(result, fit=begun[chosen])
 
     def zeros_are_told(self, result: Refit, places: Sequence[Mapping[str, float]]) -> bool:
@@ -332,3 +343,7 @@ class Refits:
     def gained_in_earnest(self, result: Refit) -> float:
         """By how much rough predictions have made a fit look worse than it is; others may look as much too bad."""
         return self.gained.get(result.key, 0.0)
+
+    def gained_elsewhere(self, result: Refit) -> float:
+        """By how much a fit is better at zeros of angles to which it went in earnest; where these are, others may gain as much."""
+        return self.gained_there.get(result.key, 0.0)
