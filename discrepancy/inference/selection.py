@@ -18,6 +18,7 @@ from discrepancy.inference.refit.confusable import (
     penalised,
     unsettled,
 )
+from discrepancy.inference.refit.effect_fit import EXPLAINS
 from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import OF_GAIN, Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
@@ -33,8 +34,12 @@ FAR_SHORT = 0.2
 MOST_THRESHOLDS = 3
 # So many further effects are tried beside what is there already.
 MOST_TRIALS = 7
+# Chi-square by sample of joint fits that leave much: rough predictions leave a third of it beside what noise does.
+MUCH = 1.5
 # So many of the best joint fits are computed in earnest, if one turns out to be none.
 MOST_IN_EARNEST = 3
+# Where pairs leave much, so many other effects are begun with, which alone explain this share of what the best does.
+MOST_FIRSTS, NEARLY = 3, 0.9
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 # Of several effects so many members give way to others in their place, one after another.
@@ -49,6 +54,11 @@ def ranked(trials: Sequence[Refit], margin: float, before: float) -> list[Refit]
         return penalised(trial) + (max(FAR, OF_GAIN * (before - trial.fit.chi2)) if newest_at_a_bound(trial) else 0.0)
 
     return number_first(sorted(trials, key=standing), margin)
+
+
+def leaves_much(trials: Sequence[Refit]) -> bool:
+    """Whether all of these fits leave much of their misfit."""
+    return all(r.fit.chi2 > MUCH * len(r.fit.residual) for r in trials)
 
 
 class Selection(Alone):
@@ -86,6 +96,9 @@ class Selection(Alone):
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
                 trials += self.exchanged(names[0], newest, challenger.gain, close)
+                trials = self.widely_beside(trials, current.fit.chi2)
+                if not calibrated and leaves_much(trials):
+                    trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
             challenger = self.in_earnest(trials, current.fit.chi2)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
@@ -120,6 +133,25 @@ class Selection(Alone):
             if other.name not in (first, newest) and frozenset([other.name, newest]) not in self.refits.fitted
             and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
         ]  # fmt: skip
+
+    def begun_otherwise(self, first: Refit) -> list[Refit]:
+        """Pairs of effects that begin with others which explain nearly as much alone: of two large ones the best alone may be neither."""
+        alone = [r for names, r in self.refits.fitted.items() if len(names) == 1 and r.key != first.key and r.gain > NEARLY * first.gain]
+        base, pairs = [c.name for c in self.candidates if c.part == BASE], []
+        for other in sorted((r for r in alone if r.name not in base), key=penalised)[:MOST_FIRSTS]:
+            more = screen(self.space, self.candidates, self.columns, other.fit, self.settings.seed, self.settings.draws, exclude=[other.name, *base])
+            promising = [s for s in few_of_each(more.scores) if frozenset([other.name, s.name]) not in self.refits.fitted]
+            promising = [s for s in promising if s.statistic >= HOPELESS * more.scores[0].statistic][:MOST_TRIALS]
+            own = {p.name: other.fit.values[p.name] for p in other.own}
+            pairs += self.race(f"fitting beside {other.name}", promising, [other.name], own)
+        return pairs
+
+    def widely_beside(self, trials: Sequence[Refit], before: float) -> list[Refit]:
+        """Joint fits, the best from other starts too if all leave much: where cages and zeros of angles were placed beside others these hold them."""
+        foremost = sorted(trials, key=penalised)[:MOST_TRIALS] if leaves_much(trials) else []
+        most = max((before - r.fit.chi2 for r in foremost), default=0.0)
+        worth = [r for r in foremost if before - r.fit.chi2 > EXPLAINS * most]
+        return [*self.tried("fitting from other starts", self.refits.widened, worth), *(r for r in trials if r not in worth)]
 
     def close_alone(self, first: str) -> list[Score]:
         """Effects whose fits alone come as near to that of the first as laws do whose form is slightly off: which of them it is, the next effect may tell."""

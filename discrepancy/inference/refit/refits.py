@@ -10,7 +10,7 @@ from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.bent import along_valley, explains_some
 from discrepancy.inference.refit.directions import half_a_turn_on
-from discrepancy.inference.refit.effect_fit import EXPLAINS
+from discrepancy.inference.refit.effect_fit import EXPLAINS, LEAVES
 from discrepancy.inference.refit.in_earnest import followed, in_earnest
 from discrepancy.inference.refit.joint import from_there, jointly, left_by, left_of, there
 from discrepancy.inference.refit.reach import BETTER, reach
@@ -267,11 +267,11 @@ class Refits:
         return result if chosen == 0 else replace(result, fit=begun[chosen])
 
     def zeros_are_told(self, result: Refit, places: Sequence[Mapping[str, float]]) -> bool:
-        """Whether the zeros, which might be at other ``places`` that look alike, are those of a fit in earnest of some of the effects, to which the others
-        add little."""
+        """Whether the zeros, which might be at other ``places`` that look alike, are those of a fit in earnest of some of the effects that leaves little, to
+        which the others add little."""
         smaller = [r for key, r in self.final_fits.items() if key < result.key]
         known = max(smaller, key=lambda r: r.gain, default=None)
-        if known is None or result.gain - known.gain > OF_GAIN * result.gain:
+        if known is None or result.gain - known.gain > OF_GAIN * result.gain or known.fit.chi2 > LEAVES * len(known.fit.residual):
             return False
         if any(p.counts or p.is_direction for c in result.candidates if c.name not in known.key for p in c.shapes):
             return False
