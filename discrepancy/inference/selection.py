@@ -23,7 +23,7 @@ from discrepancy.inference.refit.refit import Refit, drop_cost
 from discrepancy.inference.refit.refits import OF_GAIN, Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import BASE, Candidate, effect_of
+from discrepancy.problem import BASE, Candidate, Placing, effect_of
 
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
@@ -96,9 +96,10 @@ class Selection(Alone):
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
                 trials += self.exchanged(names[0], newest, challenger.gain, close)
-                trials = self.widely_beside(trials, current.fit.chi2)
-                if not calibrated and leaves_much(trials):
-                    trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
+                if not calibrated and self.is_placed(current):
+                    trials = self.widely_beside(trials, current.fit.chi2)
+                    if leaves_much(trials):
+                        trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
             challenger = self.in_earnest(trials, current.fit.chi2)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
@@ -133,6 +134,11 @@ class Selection(Alone):
             if other.name not in (first, newest) and frozenset([other.name, newest]) not in self.refits.fitted
             and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
         ]  # fmt: skip
+
+    def is_placed(self, fit: Refit) -> bool:
+        """Whether it is known of all records where they were taken; else that may be what a fit leaves."""
+        model = self.space.model
+        return not isinstance(model, Placing) or not model.unseen(fit.fit.values)
 
     def begun_otherwise(self, first: Refit) -> list[Refit]:
         """Pairs of effects that begin with others which explain nearly as much alone: of two large ones the best alone may be neither."""
