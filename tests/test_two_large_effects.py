@@ -26,8 +26,9 @@ def selection(**members):
 def test_pairs_that_all_leave_much_are_fitted_from_other_starts(least):
     near, better, far = fit("near", 4000.0), fit("better", least), fit("far", 60000.0)
     widened = {"near": 1100.0, "better": 1550.0}
-    refits = SimpleNamespace(widened=lambda r: fit(r.name, widened[r.name]))
-    found = {r.name: r.fit.chi2 for r in Selection.widely_beside(selection(refits=refits), [near, better, far], 90000.0)}
+    chosen = selection(refits=SimpleNamespace(widened=lambda r, least: fit(r.name, widened[r.name])))
+    chosen.widely = Selection.widely.__get__(chosen)
+    found = {r.name: r.fit.chi2 for r in Selection.widely_beside(chosen, [near, better, far], 90000.0)}
     assert found == ({"near": 1100.0, "better": 1550.0, "far": 60000.0} if least > 1500.0 else {"near": 4000.0, "better": least, "far": 60000.0})
     assert not leaves_much([fit("one", chi2) for chi2 in found.values()])
 
@@ -50,7 +51,7 @@ def test_pairs_begin_with_others_that_explain_nearly_as_much(monkeypatch):
     candidates = [c for r in known for c in r.candidates]
     # This pair was fitted before.
     fitted = {r.key: r for r in known} | {frozenset(["other0", "second"]): None}
-    chosen = selection(refits=SimpleNamespace(fitted=fitted), candidates=candidates, space=None, columns=None, race=race)
+    chosen = selection(refits=SimpleNamespace(fitted=fitted), candidates=candidates, space=None, columns=None, race=race, where_alone=lambda name: None)
     found = Selection.begun_otherwise(chosen, first)
     assert beside == [("other0", ["other1"]), ("other1", ["second"]), ("other2", ["second", "other1"])]
     assert [r.name for r in found] == ["other0 + other1", "other1 + second", "other2 + second", "other2 + other1"]

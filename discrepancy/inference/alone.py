@@ -84,7 +84,7 @@ class Alone:
         # Of a large effect much is left until it is fitted in earnest.
         if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
             fits = self.along_valleys(fits, rates)
-        fits = self.widely(fits, fits[:1], fits[0])
+        fits = self.widely(fits, fits[:1], self.near(fits[0]))
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         if self.judgement.leftover(first[0])[0]:
@@ -92,27 +92,26 @@ class Alone:
             more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())
             rest = sorted([*more, *fits[1:]], key=penalised)
             rest = rest if fits[0].candidates[0].name in rates else self.along_valleys(rest, rates)
-            fits = [fits[0], *self.widely(rest, [*rest[:1], *self.rivals(rest)], (rest or fits)[0])]
+            fits = [fits[0], *self.widely(rest, [*rest[:1], *self.rivals(rest)], self.near((rest or fits)[0]))]
         else:
-            fits = [fits[0], *self.widely(fits[1:], [f for f in self.rivals(fits) if self.is_close(f, fits[0])], fits[0])]
+            fits = [fits[0], *self.widely(fits[1:], [f for f in self.rivals(fits) if self.is_close(f, fits[0])], self.near(fits[0]))]
         near = self.near(fits[0])
         if self.refits.is_placed(first[0]):
             # What is placed beside an effect is placed beside the base model until it is seen.
             near = max(near, fits[0].fit.chi2 + FAR)
         near += self.refits.gained_in_earnest(first[0])
-        least = self.as_good(first[0]) + self.refits.gained_elsewhere(first[0])
-        others = self.tried("fitting in earnest", partial(self.as_reported, least), [f for f in fits[1:] if f.fit.chi2 < near])
+        others = self.tried("fitting in earnest", partial(self.as_reported, first[0], None), [f for f in fits[1:] if f.fit.chi2 < near])
         behind = [f for f in fits[1:] if f.fit.chi2 >= near]
         unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]
         for fit in unfinished:
             self.refits.forget(fit)
         return sorted([*first, *others, *(f for f in behind if f not in unfinished)], key=penalised)
 
-    def widely(self, fits: list[Refit], chosen: Sequence[Refit], best: Refit) -> list[Refit]:
-        """``fits``, the ``chosen`` ones from other starts too, where they may come near ``best``."""
+    def widely(self, fits: Sequence[Refit], chosen: Sequence[Refit], least: float = np.inf) -> list[Refit]:
+        """``fits``, the ``chosen`` ones from other starts too, where they may come below the chi-square ``least``; the best first."""
         if not chosen:
-            return fits
-        found = self.tried("fitting from other starts", partial(self.refits.widened, least=self.near(best)), chosen)
+            return list(fits)
+        found = self.tried("fitting from other starts", partial(self.refits.widened, least=least), chosen)
         return sorted([*found, *(f for f in fits if f not in chosen)], key=penalised)
 
     def rivals(self, fits: Sequence[Refit]) -> list[Refit]:
@@ -178,9 +177,11 @@ class Alone:
         """Chi-square by which a fit may be worse than one that gains so much where its law may only have a form slightly off."""
         return self.settings.adequate_margin + FORM * max(gain, 0.0)
 
-    def as_reported(self, least: float, rival: Refit) -> Refit:
-        """A rival as it is reported, fitted in earnest if it may come below the chi-square ``least`` from where predictions in earnest leave it."""
+    def as_reported(self, best: Refit, gained: float | None, rival: Refit) -> Refit:
+        """A rival as it is reported, fitted in earnest if it may come ``as_good`` as ``best`` from where predictions in earnest leave it: at other zeros of
+        angles, to which that one went, it may gain as much."""
         seen = self.refits.seen(rival)
+        least = self.as_good(best, gained) + self.refits.gained_elsewhere(best)
         return self.refits.renewed(seen) if may_reach(seen.fit, least) else seen
 
     def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:

@@ -56,6 +56,11 @@ def ranked(trials: Sequence[Refit], margin: float, before: float) -> list[Refit]
     return number_first(sorted(trials, key=standing), margin)
 
 
+def fits_alone(refits: Refits) -> list[Refit]:
+    """Fits of single effects, the best first."""
+    return sorted((r for names, r in refits.fitted.items() if len(names) == 1), key=penalised)
+
+
 def leaves_much(trials: Sequence[Refit]) -> bool:
     """Whether all of these fits leave much of their misfit."""
     return all(r.fit.chi2 > MUCH * len(r.fit.residual) for r in trials)
@@ -96,7 +101,7 @@ class Selection(Alone):
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
                 trials += self.exchanged(names[0], newest, challenger.gain, close)
-                if not calibrated and self.is_placed(current):
+                if not calibrated and self.all_placed(current):
                     trials = self.widely_beside(trials, current.fit.chi2)
                     if leaves_much(trials):
                         trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
@@ -135,36 +140,34 @@ class Selection(Alone):
             and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
         ]  # fmt: skip
 
-    def is_placed(self, fit: Refit) -> bool:
+    def all_placed(self, fit: Refit) -> bool:
         """Whether it is known of all records where they were taken; else that may be what a fit leaves."""
         model = self.space.model
         return not isinstance(model, Placing) or not model.unseen(fit.fit.values)
 
     def begun_otherwise(self, first: Refit) -> list[Refit]:
         """Pairs of effects that begin with others which explain nearly as much alone: of two large ones the best alone may be neither."""
-        alone = [r for names, r in self.refits.fitted.items() if len(names) == 1 and r.key != first.key and r.gain > NEARLY * first.gain]
         base, pairs = [c.name for c in self.candidates if c.part == BASE], []
-        for other in sorted((r for r in alone if r.name not in base), key=penalised)[:MOST_FIRSTS]:
+        others = [r for r in fits_alone(self.refits) if r.name not in (first.name, *base) and r.gain > NEARLY * first.gain]
+        for other in others[:MOST_FIRSTS]:
             more = screen(self.space, self.candidates, self.columns, other.fit, self.settings.seed, self.settings.draws, exclude=[other.name, *base])
             promising = [s for s in few_of_each(more.scores) if frozenset([other.name, s.name]) not in self.refits.fitted]
             promising = [s for s in promising if s.statistic >= HOPELESS * more.scores[0].statistic][:MOST_TRIALS]
-            own = {p.name: other.fit.values[p.name] for p in other.own}
-            pairs += self.race(f"fitting beside {other.name}", promising, [other.name], own)
+            pairs += self.race(f"fitting beside {other.name}", promising, [other.name], self.where_alone(other.name))
         return pairs
 
     def widely_beside(self, trials: Sequence[Refit], before: float) -> list[Refit]:
         """Joint fits, the best from other starts too if all leave much: where cages and zeros of angles were placed beside others these hold them."""
-        foremost = sorted(trials, key=penalised)[:MOST_TRIALS] if leaves_much(trials) else []
-        most = max((before - r.fit.chi2 for r in foremost), default=0.0)
-        worth = [r for r in foremost if before - r.fit.chi2 > EXPLAINS * most]
-        return [*self.tried("fitting from other starts", self.refits.widened, worth), *(r for r in trials if r not in worth)]
+        if not (trials and leaves_much(trials)):
+            return list(trials)
+        foremost = sorted(trials, key=penalised)[:MOST_TRIALS]
+        most = before - min(r.fit.chi2 for r in foremost)
+        return self.widely(trials, [r for r in foremost if before - r.fit.chi2 > EXPLAINS * most])
 
     def close_alone(self, first: str) -> list[Score]:
         """Effects whose fits alone come as near to that of the first as laws do whose form is slightly off: which of them it is, the next effect may tell."""
-        fitted = self.refits.fitted
-        near = self.as_good(fitted[frozenset([first])])
-        alone = sorted((r for names, r in fitted.items() if len(names) == 1 and r.fit.chi2 < near), key=penalised)
-        return [self.scores[r.name] for r in alone if r.name in self.scores]
+        near = self.as_good(self.refits.fitted[frozenset([first])])
+        return [self.scores[r.name] for r in fits_alone(self.refits) if r.fit.chi2 < near and r.name in self.scores]
 
     def where_alone(self, name: str) -> dict[str, float] | None:
         """Where an effect was fitted alone: a score beside one that does the same says nothing of its size."""
@@ -268,6 +271,5 @@ class Selection(Alone):
         twins = [s for s in others if s not in chosen and effect_of(s.name) in alike]
         rivals += self.tried(f"{what}, forms that look alike", lambda s: self.refits.fit([*rest, s.name], own, [s], near), twins)
         # What is roughly near is looked at in earnest; only what may stand there is fitted so.
-        least = self.as_good(final, gained) + self.refits.gained_elsewhere(final)
-        reported = self.tried(f"{what}, in earnest", partial(self.as_reported, least), [r for r in rivals if r.fit.chi2 < near])
+        reported = self.tried(f"{what}, in earnest", partial(self.as_reported, final, gained), [r for r in rivals if r.fit.chi2 < near])
         return [*reported, *(r for r in rivals if r.fit.chi2 >= near)]

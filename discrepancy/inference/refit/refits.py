@@ -250,10 +250,10 @@ class Refits:
             predictions.put(fit.values, before)
             predictions.settle(fit.values, self.space.training)
             left.append(left_by(self.space, fit))
-            by_errors.append(left_by(few, fit))
+            by_errors.append(left[-1] if unseen else left_by(few, fit))
             found.append(model.places(predictions.active(fit.values)))
         best = int(np.argmin(left))
-        if not unseen and (other := int(np.argmin(by_errors))) != best:
+        if (other := int(np.argmin(by_errors))) != best:
             # Loops hold what a lag leaves open, but a wrong zero has bent what they alone tell, too: a fit of all says which is right.
             for k in (best, other):
                 predictions.put(begun[k].values, found[k])
