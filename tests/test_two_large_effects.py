@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import pytest
 from test_confusable import rival
 
+from discrepancy.inference.alone import close_behind
 from discrepancy.inference.selection import MOST_FIRSTS, Selection, leaves_much
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import BASE
+from discrepancy.problem import BASE, Candidate
 
 SAMPLES = 1000
 
@@ -55,3 +56,30 @@ def test_pairs_begin_with_others_that_explain_nearly_as_much(monkeypatch):
     found = Selection.begun_otherwise(chosen, first)
     assert beside == [("other0", ["other1"]), ("other1", ["second"]), ("other2", ["second", "other1"])]
     assert [r.name for r in found] == ["other0 + other1", "other1 + second", "other2 + second", "other2 + other1"]
+
+
+@pytest.mark.parametrize(("leaves", "expected"), [(True, ["near", "second"]), (False, ["near"])], ids=["something is left", "nothing is left"])
+def test_the_foremost_are_looked_at_in_earnest_where_the_best_leaves_something(leaves, expected):
+    """The pitch of one disc beside that of the other, which shows where the output goes through its play: roughly 580 of chi-square behind a ring off its
+    centre, whose gain is 10,000, in earnest 84 before it."""
+    fits = [fit(name, 33000.0 - gain, gain) for name, gain in (("best", 10000.0), ("near", 9990.0), ("second", 9400.0), ("third", 9390.0), ("far", 5000.0))]
+    close, behind = close_behind(fits, 23100.0, leaves)
+    assert ([f.name for f in close], [f.name for f in behind]) == (expected, [f.name for f in fits[1:] if f.name not in expected])
+
+
+def test_forms_of_one_effect_take_two_of_the_fits_in_earnest():
+    """Springs that all do the same beside a friction had taken all three; what is right stood behind them, for rough predictions err there."""
+    trials = [fit(f"friction + {name}", 30000.0 + k, 900.0) for k, name in enumerate(("spring.a", "spring.b", "spring.c", "other"))]
+    for trial, name in zip(trials, ("spring.a", "spring.b", "spring.c", "other")):
+        trial.candidates = (*trial.candidates, Candidate(name, name, ()))
+    earnest = []
+
+    def renewed(trial):
+        earnest.append(trial.candidates[-1].name)
+        better = fit(trial.name, 21000.0 if trial is trials[-1] else 29000.0, 900.0)
+        better.candidates = trial.candidates
+        return better
+
+    chosen = selection(refits=SimpleNamespace(renewed=renewed), near=lambda trial: trial.fit.chi2 - 1e4)
+    found = Selection.in_earnest(chosen, trials, 40000.0)
+    assert (found.name, earnest) == ("friction + other", ["spring.a", "spring.b", "other"])

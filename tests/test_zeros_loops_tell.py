@@ -62,5 +62,7 @@ def test_a_fit_of_all_says_which_zero_is_right(bent, right):
     result = refits.fit(["ring"], {"ring": 1.0})
     began = replace(result, fit=replace(result.fit, values={"ring": 1.0, "zero": 0.01, "lag": 0.0}))
     found = refits.at_its_zero(began).fit.values
+    # All that stands beside an effect was placed with each of the zeros: not once more.
+    assert abs(refits.settled[began.key]["zero"] - found["zero"]) < 5e-3
     assert found["zero"] == pytest.approx(right, abs=5e-3)
     assert (refits.gained_elsewhere(began) > 25.0) == (right == TRUE)

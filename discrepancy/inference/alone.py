@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
@@ -28,23 +29,26 @@ FOREMOST = 2
 # What rough predictions may add to a chi-square, of what is gained (a tenth of the change, that squared; a thousandth is usual), and what a
 # linear estimate may.
 ROUGH, LINEAR, USUALLY_ROUGH = 0.01, 0.02, 0.001
+# Of what the best effect explains, what others explain that are looked at beside it where it leaves something.
+NEARLY = 0.9
 # Chi-square by which a fit is so far behind one that leaves no more than noise that none of another start stands beside that, nor with the roller cages
 # placed beside it (assumed).
 FAR = 100.0
 
 
-def few_of_each(scores: Sequence[Score]) -> list[Score]:
+def few_of_each(tried: Sequence[Named], name_of: Callable[[Named], str] = attrgetter("name")) -> list[Named]:
     """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects.
 
     Numbers of the base model are no variants of each other.
     """
     counts: dict[str, int] = {}
     kept = []
-    for s in scores:
-        effect = s.name if s.name.startswith(BASE) else effect_of(s.name)
+    for one in tried:
+        name = name_of(one)
+        effect = name if name.startswith(BASE) else effect_of(name)
         counts[effect] = counts.get(effect, 0) + 1
         if counts[effect] <= 2:
-            kept.append(s)
+            kept.append(one)
     return kept
 
 
@@ -52,6 +56,18 @@ def more_of(form: Refit, best: Refit) -> bool:
     """Whether one is a form of the other's effect that can do more."""
     (a,), (b,) = form.candidates, best.candidates
     return effect_of(a.name) == effect_of(b.name) and len(a.parameters) > len(b.parameters)
+
+
+def explains_nearly(fit: Refit, best: Refit) -> bool:
+    """Whether a fit explains nine tenths of what the best does."""
+    return fit.gain > NEARLY * best.gain
+
+
+def close_behind(fits: Sequence[Refit], near: float, leaves: bool) -> tuple[list[Refit], list[Refit]]:
+    """Of the rough ``fits`` behind the best those that may be as good, and the others; if the best ``leaves`` something the foremost that explain nearly as
+    much are among them wherever they stand: where an output goes through its play rough predictions err by more than ``near`` allows for."""
+    chosen = {id(f) for k, f in enumerate(fits[1:]) if f.fit.chi2 < near or (leaves and k < FOREMOST and explains_nearly(f, fits[0]))}
+    return [f for f in fits[1:] if id(f) in chosen], [f for f in fits[1:] if id(f) not in chosen]
 
 
 class Alone:
@@ -87,7 +103,8 @@ class Alone:
         fits = self.widely(fits, fits[:1], self.near(fits[0]))
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
-        if self.judgement.leftover(first[0])[0]:
+        leaves = self.judgement.leftover(first[0])[0]
+        if leaves:
             # What is dear to look for.
             more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())
             rest = sorted([*more, *fits[1:]], key=penalised)
@@ -100,8 +117,8 @@ class Alone:
             # What is placed beside an effect is placed beside the base model until it is seen.
             near = max(near, fits[0].fit.chi2 + FAR)
         near += self.refits.gained_in_earnest(first[0])
-        others = self.tried("fitting in earnest", partial(self.as_reported, first[0], None), [f for f in fits[1:] if f.fit.chi2 < near])
-        behind = [f for f in fits[1:] if f.fit.chi2 >= near]
+        looked_at, behind = close_behind(fits, near, leaves)
+        others = self.tried("fitting in earnest", partial(self.as_reported, first[0], None), looked_at)
         unfinished = [f for f in behind if more_of(f, first[0]) and not self.refits.is_wide(f)]
         for fit in unfinished:
             self.refits.forget(fit)

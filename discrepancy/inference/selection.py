@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Sequence
 from functools import partial
 
-from discrepancy.inference.alone import FAR, ROUGH, Alone, few_of_each
+from discrepancy.inference.alone import FAR, ROUGH, Alone, explains_nearly, few_of_each
 from discrepancy.inference.judgement import Judgement
 from discrepancy.inference.outlook import Outlook
 from discrepancy.inference.refit.confusable import (
@@ -38,8 +38,8 @@ MOST_TRIALS = 7
 MUCH = 1.5
 # So many of the best joint fits are computed in earnest, if one turns out to be none.
 MOST_IN_EARNEST = 3
-# Where pairs leave much, so many other effects are begun with, which alone explain this share of what the best does.
-MOST_FIRSTS, NEARLY = 3, 0.9
+# Where pairs leave much, so many other effects are begun with, which alone explain nearly as much as the best does.
+MOST_FIRSTS = 3
 # An effect that is this many times as needed as it must be is kept without a refit of the others.
 SURELY = 3.0
 # Of several effects so many members give way to others in their place, one after another.
@@ -122,7 +122,8 @@ class Selection(Alone):
         order = ranked(trials, self.settings.margin, before)
         found: list[Refit] = []
         moved, holds = 0.0, False
-        for trial in order[:MOST_IN_EARNEST]:
+        # Springs that all do the same take no more than two of the fits.
+        for trial in few_of_each(order, lambda r: r.candidates[-1].name)[:MOST_IN_EARNEST]:
             if holds and penalised(trial) - penalised(order[0]) > moved:
                 break
             found += self.tried("fitting in earnest", self.refits.renewed, [trial])
@@ -148,7 +149,7 @@ class Selection(Alone):
     def begun_otherwise(self, first: Refit) -> list[Refit]:
         """Pairs of effects that begin with others which explain nearly as much alone: of two large ones the best alone may be neither."""
         base, pairs = [c.name for c in self.candidates if c.part == BASE], []
-        others = [r for r in fits_alone(self.refits) if r.name not in (first.name, *base) and r.gain > NEARLY * first.gain]
+        others = [r for r in fits_alone(self.refits) if r.name not in (first.name, *base) and explains_nearly(r, first)]
         for other in others[:MOST_FIRSTS]:
             more = screen(self.space, self.candidates, self.columns, other.fit, self.settings.seed, self.settings.draws, exclude=[other.name, *base])
             promising = [s for s in few_of_each(more.scores) if frozenset([other.name, s.name]) not in self.refits.fitted]

@@ -60,8 +60,8 @@ class Refits:
         # Of that, what it fell by where it went to another zero of angles that looked alike without it.
         self.gained_there: dict[frozenset[str], float] = {}
         self.widely: set[frozenset[str]] = set()
-        # Where effects stood when the cages were placed with them, and the rough chi-square there; whether there were any to be placed.
-        self.settled: dict[frozenset[str], tuple[dict[str, float], float]] = {}
+        # Where effects stood when the cages were placed with them; whether there were any to be placed.
+        self.settled: dict[frozenset[str], dict[str, float]] = {}
         self.places: dict[frozenset[str], bool] = {}
 
     def fit(self, names: Sequence[str], start: dict[str, float] | None = None, scores: Sequence[Score] | None = None,
@@ -209,10 +209,10 @@ class Refits:
 
     def from_its_zero(self, key: frozenset[str], result: Refit) -> Refit:
         """The refit in earnest, from the zeros of angles that its effects tell, with all that is placed beside them following it."""
-        result = self.at_its_zero(result)
-        # Tried zeros have placed what goes with them.
         self.settled.pop(key, None)
-        self.settle(key, result)
+        result = self.at_its_zero(result)
+        if key not in self.settled:
+            self.settle(key, result)
         better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
         for _ in range(AGAIN):
             if not (self.space.predictions.unsettled(better.fit.values) or self.has_moved(key, better)):
@@ -245,10 +245,10 @@ class Refits:
             # What transmission errors show alike half a turn on is told by loops as soon as these have a place, each with its own.
             turned = [{p.name: other for p, other in half_a_turn_on(result.candidates, fit.values)} for fit in begun]
             begun += [replace(fit, values={**fit.values, **others}) for fit, others in zip(begun, turned) if others]
-        before, left, by_errors, found = model.places(predictions.active(result.fit.values)), [], [], []
+        before, left, by_errors, found, placed = model.places(predictions.active(result.fit.values)), [], [], [], False
         for fit in begun:
             predictions.put(fit.values, before)
-            predictions.settle(fit.values, self.space.training)
+            placed = predictions.settle(fit.values, self.space.training) or placed
             left.append(left_by(self.space, fit))
             by_errors.append(left[-1] if unseen else left_by(few, fit))
             found.append(model.places(predictions.active(fit.values)))
@@ -263,6 +263,8 @@ class Refits:
             best = int(np.argmin(left))
         chosen = 0 if left[best] > left[0] - SURELY else best
         predictions.put(begun[chosen].values, found[chosen])
+        if len(self.space.training) == len(self.space.records):  # else what goes with runs that are held out is left to be placed
+            self.settled[result.key], self.places[result.key] = begun[chosen].values, placed
         self.gained_there[result.key] = max(left[0] - left[chosen], self.gained_there.get(result.key, 0.0))
         return result if chosen == 0 else replace(result, fit=begun[chosen])
 
@@ -326,9 +328,8 @@ class Refits:
 
     def settle(self, key: frozenset[str], result: Refit) -> None:
         """What is placed beside an effect (the roller cages) placed with this one, once."""
-        if key not in self.settled or self.settled[key][0] != result.fit.values:
-            self.places[key] = self.space.predictions.settle(result.fit.values)
-            self.settled[key] = result.fit.values, result.fit.chi2
+        if self.settled.get(key) != result.fit.values:
+            self.places[key], self.settled[key] = self.space.predictions.settle(result.fit.values), result.fit.values
 
     def is_placed(self, result: Refit) -> bool:
         """Whether there was something to be placed beside a fit in earnest."""
@@ -336,7 +337,7 @@ class Refits:
 
     def has_moved(self, key: frozenset[str], result: Refit) -> bool:
         """Whether a fit has gone further from where the cages were placed than it is known: they hold it back, and it holds them."""
-        before, fit = self.settled[key][0], result.fit
+        before, fit = self.settled[key], result.fit
         far = np.abs([fit.values[p.name] - before[p.name] for p in fit.parameters])
         return self.places[key] and bool(np.any(far > np.sqrt(np.diag(result.covariance))))
 
