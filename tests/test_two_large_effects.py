@@ -8,7 +8,7 @@ from test_confusable import rival
 from discrepancy.inference.alone import close_behind
 from discrepancy.inference.selection import MOST_FIRSTS, Selection, leaves_much
 from discrepancy.inference.verdict import Settings
-from discrepancy.problem import BASE, Candidate
+from discrepancy.problem import BASE
 
 SAMPLES = 1000
 
@@ -65,21 +65,3 @@ def test_the_foremost_are_looked_at_in_earnest_where_the_best_leaves_something(l
     fits = [fit(name, 33000.0 - gain, gain) for name, gain in (("best", 10000.0), ("near", 9990.0), ("second", 9400.0), ("third", 9390.0), ("far", 5000.0))]
     close, behind = close_behind(fits, 23100.0, leaves)
     assert ([f.name for f in close], [f.name for f in behind]) == (expected, [f.name for f in fits[1:] if f.name not in expected])
-
-
-def test_forms_of_one_effect_take_two_of_the_fits_in_earnest():
-    """Springs that all do the same beside a friction had taken all three; what is right stood behind them, for rough predictions err there."""
-    trials = [fit(f"friction + {name}", 30000.0 + k, 900.0) for k, name in enumerate(("spring.a", "spring.b", "spring.c", "other"))]
-    for trial, name in zip(trials, ("spring.a", "spring.b", "spring.c", "other")):
-        trial.candidates = (*trial.candidates, Candidate(name, name, ()))
-    earnest = []
-
-    def renewed(trial):
-        earnest.append(trial.candidates[-1].name)
-        better = fit(trial.name, 21000.0 if trial is trials[-1] else 29000.0, 900.0)
-        better.candidates = trial.candidates
-        return better
-
-    chosen = selection(refits=SimpleNamespace(renewed=renewed), near=lambda trial: trial.fit.chi2 - 1e4)
-    found = Selection.in_earnest(chosen, trials, 40000.0)
-    assert (found.name, earnest) == ("friction + other", ["spring.a", "spring.b", "other"])

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
@@ -36,19 +35,18 @@ NEARLY = 0.9
 FAR = 100.0
 
 
-def few_of_each(tried: Sequence[Named], name_of: Callable[[Named], str] = attrgetter("name")) -> list[Named]:
+def few_of_each(scores: Sequence[Score]) -> list[Score]:
     """The two best variants of every effect (its name stands before the dot): near twins would crowd out other effects.
 
     Numbers of the base model are no variants of each other.
     """
     counts: dict[str, int] = {}
     kept = []
-    for one in tried:
-        name = name_of(one)
-        effect = name if name.startswith(BASE) else effect_of(name)
+    for s in scores:
+        effect = s.name if s.name.startswith(BASE) else effect_of(s.name)
         counts[effect] = counts.get(effect, 0) + 1
         if counts[effect] <= 2:
-            kept.append(one)
+            kept.append(s)
     return kept
 
 

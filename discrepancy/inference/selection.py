@@ -122,8 +122,7 @@ class Selection(Alone):
         order = ranked(trials, self.settings.margin, before)
         found: list[Refit] = []
         moved, holds = 0.0, False
-        # Springs that all do the same take no more than two of the fits.
-        for trial in few_of_each(order, lambda r: r.candidates[-1].name)[:MOST_IN_EARNEST]:
+        for trial in order[:MOST_IN_EARNEST]:
             if holds and penalised(trial) - penalised(order[0]) > moved:
                 break
             found += self.tried("fitting in earnest", self.refits.renewed, [trial])
