@@ -37,7 +37,7 @@ DAMPINGS = ("none", "step", "lankarani-nikravesh", "modal")
 SLOWEST_IMPACT = 1e-3
 SI, LITERAL = 0, 1
 # Relative change of a penetration up to which a series stands for the power.
-BESIDE = 0.1
+BESIDE = 0.02
 READINGS = ("SI", "literal")
 
 
@@ -92,13 +92,7 @@ def contact_force(penetration, stiffness, exponent):
 def power_beside(u, exponent):
     """(1 + u)^exponent by its series; for |u| <= BESIDE and exponents up to 1 right to 1e-13."""
     e = exponent
-    c = 1.0 + (e - 11.0) * (1.0 / 12.0) * u
-    c = 1.0 + (e - 10.0) * (1.0 / 11.0) * u * c
-    c = 1.0 + (e - 9.0) * (1.0 / 10.0) * u * c
-    c = 1.0 + (e - 8.0) * (1.0 / 9.0) * u * c
-    c = 1.0 + (e - 7.0) * (1.0 / 8.0) * u * c
-    c = 1.0 + (e - 6.0) * (1.0 / 7.0) * u * c
-    c = 1.0 + (e - 5.0) * (1.0 / 6.0) * u * c
+    c = 1.0 + (e - 5.0) * (1.0 / 6.0) * u
     c = 1.0 + (e - 4.0) * (1.0 / 5.0) * u * c
     c = 1.0 + (e - 3.0) * (1.0 / 4.0) * u * c
     c = 1.0 + (e - 2.0) * (1.0 / 3.0) * u * c

@@ -6,7 +6,7 @@ from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, local, output, scratch, state
 from rv_plant.contact import contact_force, damped_force, impact_speed
 from rv_plant.dimension import FILE, deviation, length
-from rv_plant.geometry import centre_curve_curvature, closest_distance, least_distance, shortening
+from rv_plant.geometry import centre_curve_curvature, closest_distance, curvature_and_slopes, least_distance, shortening, turn_of
 from rv_plant.near_mesh import NEAR, add_to_disc_and_ring, keep_contact, keep_force
 
 # Pins nearer than this have their distance and phase computed, touching or not; at rest those that may come to touch too [m].
@@ -132,18 +132,15 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight, kept):
     loaded = 0
     apart = NEAR if kept else APART
     r.near_count[d] = 0
-    per_circle, per_turn = 1.0 / r.pin_circle_radius, 0.5 * lobes / math.pi
     for j in range(pins):
         # Pin centre from the disc's centre, in the housing and in the profile's frame.
         pin_x = ring_cos * r.pin_x[j] - ring_sin * r.pin_y[j]
         pin_y = ring_cos * r.pin_y[j] + ring_sin * r.pin_x[j]
         px, py = pin_x - disc_x, pin_y - disc_y
-        along_disc = per_turn * (r.pin_angle[j] - ideal_output - profile_turn)
+        along_disc = lobes * (r.pin_angle[j] - ideal_output - profile_turn)
         # Phases count from the nearest root; the tooth lies between two roots.
-        tooth = math.floor(along_disc)
-        rest = along_disc - tooth
-        ideal_phase = 2.0 * math.pi * (rest if rest < 0.5 else rest - 1.0)
-        lobe = tooth % lobes
+        ideal_phase = along_disc - 2.0 * math.pi * math.floor(along_disc / (2.0 * math.pi) + 0.5)
+        lobe = math.floor(along_disc / (2.0 * math.pi)) % lobes
         # With one pin more than lobes the ideal phase is also the eccentric's angle less the
         # pin's, and the frame of the ideal contact lies along the pin's direction.
         pin_cos, pin_sin = r.pin_cos[j], r.pin_sin[j]
@@ -153,7 +150,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight, kept):
         cx, cy = cr * px + sr * py, cr * py - sr * px
         # A flank is displaced along the pitch with its tooth, and turned into it by angle modification.
         flank = 1.0 if ideal_phase >= 0.0 else -1.0
-        pitch = (r.lobe_pitch_error[d, lobe] + r.lobe_pitch_added[d, lobe]) * per_circle
+        pitch = (r.lobe_pitch_error[d, lobe] + r.lobe_pitch_added[d, lobe]) / r.pin_circle_radius
         pitch += flank * r.angle_modification
         cx, cy = cx + pitch * cy, cy - pitch * cx
         clearance = radius - r.pin_radius - r.pin_radius_error[j] - r.pin_radius_added[j]
@@ -164,7 +161,7 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight, kept):
             r.mesh_force_now[d, j] = 0.0
             r.mesh_phase[d, j] = ideal_phase + r.phase_shift[d, j]
             continue
-        shift, distance, nx, ny, bend, slope, curl, phase_slope = closest_distance(
+        shift, distance, nx, ny, bend = closest_distance(
             cx, cy, ideal_cos, ideal_sin, r.phase_shift[d, j], lobes, circle, r.eccentricity, k1
         )
         r.phase_shift[d, j] = shift
@@ -184,14 +181,21 @@ def mesh_contacts(r, d, ideal_output, axes, rate_weight, kept):
         gr = pin_y * nhx - pin_x * nhy
         # The normal turns with the disc, and along the flank by its curvature.
         reach, swing = px * nhx + py * nhy, pin_x * nhx + pin_y * nhy
-        # Along the parallel curve through the pin's centre.
         per_reach = 1.0 / (1.0 + bend * distance)
         bend *= per_reach
         turn = 1.0 - bend * reach
         if kept:
+            shift_cos, shift_sin = turn_of(shift)
+            curvature, slope, curl, phase_slope = curvature_and_slopes(
+                ideal_cos * shift_cos - ideal_sin * shift_sin, ideal_sin * shift_cos + ideal_cos * shift_sin, lobes, circle, k1
+            )
+            # Along the parallel curve through the pin's centre.
+            per_reach = 1.0 / (1.0 + curvature * distance)
             slope, square = slope * per_reach, per_reach * per_reach
             curl = square * (square * curl - 3.0 * distance * slope * slope * per_reach)
-            keep_contact(r, d, j, -gap, gx, gy, gt, gr, bend, square * slope, curl, reach, swing, slope, phase_slope * per_reach)
+            keep_contact(
+                r, d, j, -gap, gx, gy, gt, gr, curvature * per_reach, square * slope, curl, reach, swing, slope, phase_slope * per_reach
+            )
             if gap >= 0.0:
                 continue
         if rate_weight == 0.0:

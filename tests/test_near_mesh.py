@@ -83,8 +83,7 @@ def test_curvature_and_its_derivatives(phase):
     along = lambda p: circle * np.sqrt(1.0 + k1**2 - 2.0 * k1 * np.cos(p)) / lobes
     curvature = lambda p: centre_curve_curvature(p, lobes, circle, k1)
     slope = lambda p, h=1e-4: (curvature(p + h) - curvature(p - h)) / (2.0 * h * along(p))
-    per_root = 1.0 / np.sqrt(1.0 + k1**2 - 2.0 * k1 * np.cos(phase))
-    found = curvature_and_slopes(np.cos(phase), np.sin(phase), per_root, lobes, circle, k1)
+    found = curvature_and_slopes(np.cos(phase), np.sin(phase), lobes, circle, k1)
     assert found[0] == pytest.approx(curvature(phase), rel=1e-12)
     assert found[1] == pytest.approx(slope(phase), rel=1e-5)
     assert found[2] == pytest.approx((slope(phase + 1e-4) - slope(phase - 1e-4)) / (2e-4 * along(phase)), rel=1e-4)
@@ -94,9 +93,9 @@ def test_curvature_and_its_derivatives(phase):
 def test_a_force_beside_a_known_one_is_that_of_the_law(exponent):
     stiffness, known = 7e11, 1.3e-6
     force, _ = contact_force(known, stiffness, exponent)
-    for share in (-5.0, -1.0, -0.99, -0.1, -0.02, -1e-4, 0.0, 3e-3, 0.0999, 0.3):
+    for share in (-5.0, -1.0, -0.99, -0.02, -1e-4, 0.0, 3e-3, 0.0199, 0.3):
         penetration = known * (1.0 + share)
         expected = contact_force(penetration, stiffness, exponent)
         assert force_beside(penetration, known, force, stiffness, exponent) == pytest.approx(expected, rel=1e-12, abs=0)
     assert force_beside(1e-7, 0.0, 0.0, stiffness, exponent) == contact_force(1e-7, stiffness, exponent)
-    assert BESIDE < 0.11
+    assert BESIDE < 0.05
