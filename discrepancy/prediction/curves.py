@@ -38,6 +38,10 @@ class Curve(Protocol[Nodes]):
         """The same of a bench that is not rough, where that matters between nodes, too."""
         ...
 
+    def between(self, nodes: Nodes) -> Nodes | None:
+        """Places at which what is interpolated from ``nodes`` is looked at; None where the nodes themselves tell."""
+        ...
+
     def places(self, values: Values) -> Floats:
         """Where the samples lie on the axis."""
         ...
@@ -120,6 +124,11 @@ def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> E
         # One turn is like the others.
         nodes = nodes.beginning()
         at = change(nodes)
-        return nodes.error(at), float(np.std(at))
+        size, between = float(np.std(at)), None if curve.bench.fineness and curve.bench.fineness.rough else curve.between(nodes)
+        if between is None:
+            return nodes.error(at), size
+        # Nodes that a wave is too fast for do not show it.
+        off = change(between) - nodes.samples(at, between.places)
+        return float(np.sqrt(np.mean(off**2))), size
 
     return errs

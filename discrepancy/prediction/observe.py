@@ -14,6 +14,7 @@ from discrepancy.prediction.lives import fresh
 from discrepancy.prediction.over_angle import OverAngle, error_change
 from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change, loop_change
 from discrepancy.prediction.standard_test import WAY, weights_of
+from discrepancy.prediction.turning_torque import applied
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -80,19 +81,19 @@ def coarse_lost_motion_change(bench: Bench, record: Record, values: Values, base
 
 def locked_output(bench: Bench, record: Record, values: Values) -> Floats:
     """Turning of the input over the ratio, output locked: the drive's springs and play, friction beside them."""
-    applied = np.asarray(record.axes["torque"], np.float64)
+    torques = applied(bench, record)
     elastic = {name: value for name, value in values.items() if name not in DRIVE_FRICTION} | WITHOUT_FRICTION
     # Finely about no torque, where play is.
     rising = np.linspace(1.0 / ELASTIC_STEPS, 1.0, ELASTIC_STEPS) ** 2
-    table = float(np.abs(applied).max()) * np.concatenate([-rising[::-1], rising])
+    table = float(np.abs(torques).max()) * np.concatenate([-rising[::-1], rising])
     turning = bench.held(held_condition(bench, record), elastic, table, LOCKED_ANGLES)
     friction, share, presliding = (values.get(n, bench.starts[0][n]) for n in DRIVE_FRICTION)
     if friction + share == 0.0:
-        return np.interp(applied, table, turning)
-    found, sliders = np.zeros(len(applied)), np.zeros(ELEMENTS)
+        return np.interp(torques, table, turning)
+    found, sliders = np.zeros(len(torques)), np.zeros(ELEMENTS)
     # The ramp before left the elements somewhere: it was the same ramp.
     for _ in range(2):
-        locked_output_loop(turning, table, applied, friction, share, presliding, sliders, found)
+        locked_output_loop(turning, table, torques, friction, share, presliding, sliders, found)
     return found
 
 

@@ -12,7 +12,7 @@ from discrepancy.prediction.conditions import Values, angle_zero, angles_of, con
 from discrepancy.prediction.curves import LEVEL_OF_SLOPES, nodes_of_slopes, signal
 from discrepancy.prediction.running import Starts
 from discrepancy.prediction.stations import Stations, own_stations
-from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, angle_nodes, banded_nodes
+from discrepancy.prediction.support import BEYOND, COARSEST, WHOLE, WORTHWHILE, AngleNodes, SplineNodes, angle_nodes, banded_nodes, between_angles
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import NEAR, Record
 from fmu_src.arrays import Floats
@@ -111,6 +111,10 @@ class OverAngle:
         topology = self.bench.reducer.topology
         nodes = banded_nodes(topology.lobes, topology.pins, level, direction)
         return nodes if len(nodes.angles) < WORTHWHILE * len(angles) else None
+
+    def between(self, nodes: AngleNodes) -> AngleNodes:
+        angles = angles_of(self.bench, self.record, 0.0)
+        return between_angles(float(angles.min()), float(angles.max()), self.condition.direction)
 
     def places(self, values: Values) -> Floats:
         return angles_of(self.bench, self.record, zero_of(self.bench, self.record, values))

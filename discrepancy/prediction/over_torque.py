@@ -11,6 +11,7 @@ from discrepancy.prediction.conditions import Values, held_condition
 from discrepancy.prediction.curves import nodes_of, nodes_of_slopes
 from discrepancy.prediction.support import TorqueNodes, torque_nodes
 from discrepancy.prediction.torque_way import NEAR_NOTHING, entered, way
+from discrepancy.prediction.turning_torque import applied
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -38,8 +39,11 @@ class OverTorque:
         # Where a way turns back is looked for sample by sample: once.
         return self.bench.kept(("nodes", torques.tobytes(), level), lambda: torque_nodes(torques, NEAR_NOTHING * self.bench.rated_load, max(level, 0)))
 
+    def between(self, nodes: TorqueNodes) -> None:
+        """Nothing: turning under one torque depends on the way there."""
+
     def places(self, values: Values) -> Floats:
-        return np.asarray(self.record.axes["torque"], np.float64)
+        return applied(self.bench, self.record)
 
     def unchanged(self, values: Values) -> dict[str, float]:
         return {}

@@ -19,7 +19,7 @@ WAY = np.array([1.0, 0.75, 0.5, 0.25, 0.1, 0.05, 0.02])
 
 def departures(bench: Bench, record: Record) -> Floats:
     """Of the new base model's loop at each position (positions, n) [rad] from the mean of all, each about its own mean: its zero is free."""
-    return departures_along(bench, np.asarray(record.axes["torque"], float), record.closed)
+    return departures_along(bench, OverTorque(bench, record).places({}), record.closed)
 
 
 def departures_along(bench: Bench, torques: Floats, closed: bool = False) -> Floats:

@@ -34,6 +34,8 @@ PER_SIDE = (8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 1024, 2048, 
 # alike, and nothing shows the error.
 SCATTERED = 0.4
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+# Places between nodes at which an error is looked at: it is known within a tenth.
+LOOKED_AT = 64
 # Turns, with what nodes stand beyond a record of one.
 JUDGED = 1.25
 # How far beyond a record's angles nodes go [rad]: where its angle 0 lies is estimated within a pitch of the pins.
@@ -53,6 +55,10 @@ class AngleNodes(ABC):
     """Nodes over the output's angle [rad]: ``angles`` (m,) in the order in which they are passed."""
 
     angles: Floats
+
+    @property
+    def places(self) -> Floats:
+        return self.angles
 
     @abstractmethod
     def samples(self, values: Floats, angles: Floats) -> Floats:
@@ -144,6 +150,14 @@ def scattered(count: Floats) -> Floats:
     return found
 
 
+def between_angles(low: float, high: float, direction: int) -> SplineNodes:
+    """Places of a turn at most, of angles from ``low`` to ``high`` [rad], at which what was interpolated is looked at: no two as far from the nodes."""
+    span = min(high - low, 2.0 * np.pi)
+    count = np.arange(float(LOOKED_AT))
+    places = low + span / LOOKED_AT * (count + (count * GOLDEN) % 1.0)
+    return SplineNodes(places[::direction])
+
+
 def angle_nodes(angles: Floats, direction: int, level: int, always: bool = False) -> SplineNodes | None:
     """Nodes for samples at ``angles`` [rad] wherever their zero lies; None where the samples are hardly more, unless ``always``."""
     if level >= len(PER_TURN):
@@ -172,6 +186,10 @@ class TorqueNodes:
 
     torques: Floats
     branches: tuple[Branch, ...]
+
+    @property
+    def places(self) -> Floats:
+        return self.torques
 
     def beginning(self) -> "TorqueNodes":
         """By which an error is judged: all."""

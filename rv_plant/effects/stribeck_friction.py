@@ -22,6 +22,8 @@ from rv_plant.mesh import ring_coordinate
 from rv_plant.supports import sliding_friction, sticking_friction
 
 ELEMENTS = 6
+# Growth with the load of what friction holds, where it turns back (assumed: more would hold the output for good).
+STEEPEST = 0.4
 EFFECT = Effect(
     4, "Stribeck friction",
     "mu = mu_c + mu_s exp(-v/v_s) + c v, loss = sum mu F v; held: Iwan elements between carrier and ring up to T_s",
@@ -80,10 +82,20 @@ def before(r):
         return
     known = held_by_last_forces(r)
     slope = 0.0
-    if r.holding_load != r.holding_load_before and r.holding_load > 0.0:
-        slope = (known - r.held_before) / (r.holding_load - r.holding_load_before)
-        slope = min(max(slope, 0.0), known / r.holding_load)
-    r.friction_torque = max(known + slope * (abs(r.load_torque) - r.holding_load), 0.0)
+    load, load_before = abs(r.holding_load), abs(r.holding_load_before)
+    if load != load_before and load > 0.0:
+        slope = min(max((known - r.held_before) / (load - load_before), 0.0), known / load)
+    beyond = abs(r.load_torque) - load
+    if (r.load_torque - r.holding_load) * (r.holding_load - r.holding_load_before) < 0.0 < r.load_torque * r.holding_load:
+        # The load turns back: what the drive carries stands, and with it what friction can hold, until that has turned round.  Then the drive carries
+        # what friction holds beyond the load and no longer below it, or the other way.
+        if beyond < 0.0:
+            beyond = min(beyond + 2.0 * known, 0.0)
+            slope /= 1.0 - 2.0 * min(slope, STEEPEST)
+        else:
+            beyond = max(beyond - 2.0 * known, 0.0)
+            slope /= 1.0 + 2.0 * slope
+    r.friction_torque = max(known + slope * beyond, 0.0)
     r.held_last = known
     if r.friction_torque > last:
         # Not by ``z``, from which the next equilibrium is looked for: that may be where a similar run found it.
@@ -127,7 +139,7 @@ def hold(r):
 @kernel
 def after(r):
     """Sliders follow; loss of power when turning."""
-    load, turn = abs(r.load_torque), turned_in_ring(r)
+    load, turn = r.load_torque, turned_in_ring(r)
     r.held_turn = turn
     if load != r.holding_load:
         # From a turning input on in proportion to the load: what is held at no load is nothing.

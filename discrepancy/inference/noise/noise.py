@@ -1,16 +1,18 @@
 """Noise of each signal, from runs that repeat each other and not from the misfit of the model.
 
 Signals: V = s^2 AR1(length, nugget) + offset, drift and gain that differ from run to run;
-single numbers: V = s^2, constant or proportional to the value.  Without replicates the stated
+single numbers: V = s^2, constant or proportional to the value.  Where a loop is steep noise of the torque is noise of the loop:
+s^2 grows there by the square of slope times noise.  Without replicates the stated
 noise is taken, and without that the fast part of the residual, inflated: both are flagged.
 """
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from discrepancy.inference.noise.axis_noise import axis_noise_of, slopes_of
 from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values, trend_of
 from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
@@ -70,8 +72,8 @@ def estimate(records: Sequence[Record], residuals: Sequence[Floats], predictions
             warnings.append(f"{key}: {note}")
         held = [i for i in indices if i not in plain]
         if held and not short:
-            repeated = [i for i in held if not records[i].left_out]
-            weights.update(_weights(stream, deviations_of(records, residuals, masks, repeated), records, residuals, masks, held))
+            repeated = deviations_of(records, residuals, masks, [i for i in held if not records[i].left_out])
+            weights.update(_weights(stream, evened(repeated, records, predictions, stream.axis), records, residuals, predictions, masks, held))
         # Single numbers are too few to show the step in which they were rounded: all runs together do.
         step = step_of(np.concatenate([np.asarray(records[i].values, float) for i in indices])) if short else None
         for i in indices:
@@ -156,6 +158,11 @@ def _signals(
             inner, fast = fast_part(path_of(records[i])[rows], residuals[i][rows])
             deviations.append(Deviation(i, position_of(records[i])[rows[inner]], fast, rows[inner], 1.0, records[i].condition, False))
     detrended = [detrended_values(d.position, d.values) for d in deviations]
+    axis = 0.0
+    if replicated:
+        axis = axis_noise_of(detrended, [slopes_of(records[d.index], predictions[d.index])[d.rows] for d in deviations], [d.share for d in deviations])
+        deviations = evened(deviations, records, predictions, axis)
+        detrended = [v / d.factor for d, v in zip(deviations, detrended)]
     size = np.median([robust_scale(v) for v in detrended])
     size = max(size, 1e-9 * max(np.max(np.abs(predictions[i])) for i in indices), 1e-300)
     if replicated:
@@ -198,15 +205,27 @@ def _signals(
         scale, known = level, UNREPLICATED_DOF
     every = np.concatenate([e / scales[d.condition] for e, d in zip(inside, deviations)])
     tail = float(np.mean(np.abs(every) > CUT))
-    base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail)
+    base = StreamNoise(scale, scales, False, length, nugget, taps, {}, {"main": float(known)}, source, tail, axis=axis)
     if replicated:
         patterns, between = pattern_variances(base, deviations, predictions)
         between |= known_of_slow(deviations, length)
     else:
         patterns, between = dict(UNSEEN), dict.fromkeys(UNSEEN, UNREPLICATED_DOF)
-    stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **between}, source, tail)
-    weights = _weights(stream, deviations if replicated else [], records, residuals, masks, indices)
+    stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **between}, source, tail, axis=axis)
+    weights = _weights(stream, deviations if replicated else [], records, residuals, predictions, masks, indices)
     return stream, weights, note
+
+
+def factor_of(record: Record, predicted: Floats, axis: float) -> Floats:
+    """(n,) by how much the noise of each sample is larger for the noise of its ``axis``, in units of that of the signal."""
+    factor: Floats = np.hypot(1.0, axis * slopes_of(record, predicted))
+    return factor
+
+
+def evened(deviations: Sequence[Deviation], records: Sequence[Record], predictions: Sequence[Floats], axis: float) -> list[Deviation]:
+    """Deviations as they would be without noise of the ``axis``: those of steep places smaller."""
+    factors = [factor_of(records[d.index], predictions[d.index], axis)[d.rows] for d in deviations]
+    return [replace(d, values=d.values / factor, factor=factor) for d, factor in zip(deviations, factors)]
 
 
 def known_of_slow(deviations: Sequence[Deviation], length: float) -> dict[str, float]:
@@ -229,8 +248,8 @@ def _tail_variance(e: Floats) -> float:
 
 
 def _weights(
-    stream: StreamNoise, deviations: Sequence[Deviation], records: Sequence[Record], residuals: Sequence[Floats], masks: Sequence[Mask],
-    indices: Sequence[int],
+    stream: StreamNoise, deviations: Sequence[Deviation], records: Sequence[Record], residuals: Sequence[Floats], predictions: Sequence[Floats],
+    masks: Sequence[Mask], indices: Sequence[int],
 ) -> dict[int, Floats]:  # fmt: skip
     """Huber weights of each record: from its replicates, else from its own neighbours."""
     weights = {}
@@ -243,7 +262,8 @@ def _weights(
         rho = correlations(position, stream.length)
         g = gains(rho, stream.nugget)
         level = stream.scales.get(records[i].condition, stream.scale)
-        e = innovations((residuals[i][rows] / level)[:, None], rho, *g)
+        even = residuals[i][rows] / (level * factor_of(records[i], predictions[i], stream.axis)[rows])
+        e = innovations(even[:, None], rho, *g)
         alone[i] = local_deviation(autoregress(e, stream.taps)[:, 0])
         weights[i] = huber_weights(alone[i], 2 * CUT if deviations else 1.6 * CUT)
     for d in deviations:
@@ -283,7 +303,8 @@ def _whitener(
     rows = int(kept.sum())
     position = position_of(record)[kept]
     level = stream.scales.get(record.condition, stream.scale)
-    scale = np.full(rows, max(level, rounded))
+    factor = factor_of(record, prediction, stream.axis)[kept]
+    scale = max(level, rounded) * factor
     if stream.proportional:
         scale = np.maximum(level * np.maximum(np.abs(prediction[kept]), max(stream.floor, 1e-300)), rounded)
     between = dict(stream.patterns)
@@ -293,11 +314,11 @@ def _whitener(
     elif record.zero_noise:
         between["offset"] = between.get("offset", 0.0) + (record.zero_noise / level) ** 2
     names = list(between)
-    patterns = pattern_columns(position, prediction[kept], names) if names and rows >= SHORT else np.zeros((rows, 0))
+    patterns = pattern_columns(position, prediction[kept], names) / factor[:, None] if names and rows >= SHORT else np.zeros((rows, 0))
     variances = np.array([between[n] for n in names]) if patterns.shape[1] else np.zeros(0)
     found = whitener(kept, scale, position, stream.length, stream.nugget, stream.taps,
                      np.ones(rows) if weight is None else np.sqrt(weight), patterns, variances,
                      tuple((key, n) for n in names), key)
     if SLOW not in stream.dof or rows < SHORT:
         return found
-    return with_slow(found, slow_waves(position, max(stream.length, spacing_of(position))))
+    return with_slow(found, slow_waves(position, max(stream.length, spacing_of(position))) / factor[:, None])

@@ -15,6 +15,9 @@ from fmu_src.arrays import Floats, Mask
 
 @dataclass(frozen=True)
 class Deviation:
+    """Of a run from those that repeat it, at ``rows`` of its record, scaled to the variance of one run: divided by ``factor``, by which the noise of its
+    samples differs, where that is known."""
+
     index: int
     position: Floats
     values: Floats
@@ -22,6 +25,7 @@ class Deviation:
     share: float
     condition: str
     pair: bool
+    factor: Floats | float = 1.0
 
 
 def _groups(records: Sequence[Record], indices: Sequence[int]) -> list[list[int]]:

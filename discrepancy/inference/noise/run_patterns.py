@@ -50,7 +50,8 @@ def _amounts(
         rho = correlations(d.position, stream.length)
         g = gains(rho, stream.nugget)
         shape = predictions[d.index][d.rows]
-        basis = autoregress(innovations(np.ascontiguousarray(pattern_columns(d.position, shape, names)), rho, *g), stream.taps)
+        columns = pattern_columns(d.position, shape, names) / np.reshape(d.factor, (-1, 1))
+        basis = autoregress(innovations(np.ascontiguousarray(columns), rho, *g), stream.taps)
         e = autoregress(innovations((d.values / stream.scales[d.condition])[:, None], rho, *g), stream.taps)[:, 0]
         e = e * huber_weights(e - np.median(e), 2 * CUT)
         amount, *_ = np.linalg.lstsq(basis, e, rcond=None)
