@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from discrepancy.prediction.support import COARSEST
+from discrepancy.prediction.support import COARSEST, COMB
 from discrepancy.problem import ERROR, FREE_ZERO, ORDERS, Record
 from discrepancy.rounding import SERIES, jumps_of, noise_of
 from fmu_src.arrays import Floats
@@ -18,8 +18,6 @@ SEEN, OF_NOISE = 4.0, 0.1
 SOLVED = 5e-11
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
 ROUGHLY = 0.15
-# The few nodes of a band are for searches; what is reported may err by so much less there.
-BANDED = 0.2
 # What is changed to first order is changed by such a share of a typical amplitude.
 STEP = 0.01
 # A level's error over that of the one before, and what it may be of what is changed to first order, and of a whole change, where finer ones are no better.
@@ -90,7 +88,7 @@ class Fineness:
         amounts = self.amounts(away)
         if not amounts:
             if group not in self.base:
-                self.base[group] = self.found(self.allowed[group], 0.0, errs, COARSEST if group in self.orders else 0)
+                self.base[group] = self.found(self.allowed[group], 0.0, errs, COARSEST if group in self.orders else COMB)
             return self.base[group]
         off = np.abs(np.array(list(amounts.values())))
         known = self.added.setdefault(added(group, amounts), [])
@@ -100,7 +98,7 @@ class Fineness:
                 return level
         first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
         share, most = (ROUGHLY, OF_WHOLE) if self.rough else (0.0, 0.0)
-        level = self.found(self.allowed[group], share, errs, first, most, banded=1.0 if self.rough or group in self.orders else BANDED)
+        level = self.found(self.allowed[group], share, errs, first, most)
         known.append((off, level))
         return level
 
@@ -132,9 +130,8 @@ class Fineness:
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
 
-    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0, banded: float = 1.0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change,
-        and below ``banded`` of that between the few nodes of a band.
+    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change.
 
         An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
         """
@@ -142,14 +139,19 @@ class Fineness:
         while level < EVERY_SAMPLE:
             at = errs(level)
             if at is None:
-                return EVERY_SAMPLE
+                if level >= 0:
+                    return EVERY_SAMPLE
+                # More than the first nodes without bands may be.
+                level = 0
+                continue
             error, size = at
-            least = max(allowed, share * size) * (banded if level < 0 else 1.0)
+            least = max(allowed, share * size)
             # Between the few nodes of a band it may be anything.
             if error <= least or (level >= (0 if error < NOTHING * size else FAST) and NO_LESS * before < error < most * size):
                 return level
-            level += max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
-            before = error
+            finer = level + max(1, int(np.log(error / least) / np.log(A_LEVEL))) if least > 0.0 else EVERY_SAMPLE
+            # What few orders make, however high, nodes without bands show last.
+            level, before = min(finer, COMB) if level < COMB else finer, error
         return EVERY_SAMPLE
 
 
