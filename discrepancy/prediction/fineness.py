@@ -18,6 +18,8 @@ SEEN, OF_NOISE = 4.0, 0.1
 SOLVED = 5e-11
 # What it may err, of what is changed, where only a direction is looked for or a fit goes on.
 ROUGHLY = 0.15
+# The fewest nodes are for searches; what is reported may err by so much less there: of few samples noise itself is hardly known.
+FEWEST = 0.2
 # What is changed to first order is changed by such a share of a typical amplitude.
 STEP = 0.01
 # A level's error over that of the one before, and what it may be of what is changed to first order, and of a whole change, where finer ones are no better.
@@ -98,7 +100,7 @@ class Fineness:
                 return level
         first = max((level for _, level in known), default=self.elsewhere(self.added, group, amounts, lambda known: known[0][1]))
         share, most = (ROUGHLY, OF_WHOLE) if self.rough else (0.0, 0.0)
-        level = self.found(self.allowed[group], share, errs, first, most)
+        level = self.found(self.allowed[group], share, errs, first, most, 1.0 if self.rough or group in self.orders else FEWEST)
         known.append((off, level))
         return level
 
@@ -130,8 +132,9 @@ class Fineness:
     def amounts(self, away: Mapping[str, float]) -> dict[str, float]:
         return {name: off for name, off in sorted(away.items()) if name not in self.shapes}
 
-    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0) -> int:
-        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change.
+    def found(self, allowed: float, share: float, errs: ErrsAt, first: int = 0, most: float = 0.0, fewest: float = 1.0) -> int:
+        """The first level, not before ``first``, at which what interpolation errs stays below ``allowed``, or below a ``share`` of the change, and below
+        ``fewest`` of that with the fewest nodes.
 
         An error below the share ``most`` that does not fall is that of jumps, which are as sharp at any level.
         """
@@ -145,7 +148,7 @@ class Fineness:
                 level = 0
                 continue
             error, size = at
-            least = max(allowed, share * size)
+            least = max(allowed, share * size) * (fewest if level < COMB else 1.0)
             # Between the few nodes of a band it may be anything.
             if error <= least or (level >= (0 if error < NOTHING * size else FAST) and NO_LESS * before < error < most * size):
                 return level
