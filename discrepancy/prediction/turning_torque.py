@@ -8,6 +8,7 @@ samples about a turn show besides noise, it tells the torque better than any of 
 import numpy as np
 import numpy.typing as npt
 
+from discrepancy.closed_loop import scatter
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.support import reversals
 from discrepancy.problem import Record
@@ -16,6 +17,8 @@ from fmu_src.arrays import Floats
 # A line on either side of a turn or a parabola is fitted to so many times the noise of torque, and so many samples, on either side at least, and to up to so
 # many times as much as long as no more than noise is left.
 REACH, SAMPLES, WIDER = 10.0, 8, (1, 2, 4, 8, 16, 32)
+# Fewer samples tell no noise.
+FEW = 4 * SAMPLES
 # Of the way to the turn before and after: so much is looked at at most.
 MOST = 0.5
 # By how much what a fit leaves may be more than noise.
@@ -39,8 +42,8 @@ def as_applied(torques: Floats, turns: npt.NDArray[np.intp]) -> Floats:
     """(n,) ``torques`` [N m] as read, with those about the inner ``turns`` (places of samples, the first and the last sample among them) no farther than
     where the torque turned back; as they are where their noise or their way there is not known."""
     found = np.array(torques, np.float64)
-    noise = noise_of(found)
-    if noise == 0.0:
+    noise = scatter(found)
+    if noise == 0.0 or len(found) < FEW:
         return found
     for before, k, after in zip(turns[:-2], turns[1:-1], turns[2:]):
         sense = 1.0 if torques[k] >= torques[before] else -1.0
@@ -56,13 +59,6 @@ def as_applied(torques: Floats, turns: npt.NDArray[np.intp]) -> Floats:
         if before < nearest < after and abs(before + place - nearest) * pace <= AT * noise:
             found[nearest] = sense * most
     return found
-
-
-def noise_of(torques: Floats) -> float:
-    """Of samples one after the other, that goes along no line."""
-    if len(torques) < 4 * SAMPLES:
-        return 0.0
-    return float(1.4826 * np.median(np.abs(np.diff(torques, 2))) / np.sqrt(6.0))
 
 
 def pace_of(way: Floats, k: int) -> float:

@@ -1,10 +1,12 @@
 """Noise of what a signal is written over: a torque meter's moves the samples of a loop along it, most where it is steep."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from discrepancy.inference.noise.outliers import robust_scale
+from discrepancy.inference.noise.replicates import Deviation
 from discrepancy.inference.noise.series import path_of, spacing_of
 from discrepancy.problem import Record
 from fmu_src.arrays import Floats
@@ -56,3 +58,17 @@ def axis_noise_of(values: Sequence[Floats], slopes: Sequence[Floats], shares: Se
     found = [deviance(ratio) for ratio in ratios]
     best = int(np.argmin(found))
     return float(ratios[best]) if deviance(0.0) - found[best] > EVIDENT else 0.0
+
+
+def factor_of(record: Record, predicted: Floats, axis: float) -> Floats:
+    """(n,) by how much the noise of each sample is larger for the noise of its ``axis``, in units of that of the signal."""
+    if axis == 0.0:
+        return np.ones(np.size(record.values))
+    factor: Floats = np.hypot(1.0, axis * slopes_of(record, predicted))
+    return factor
+
+
+def evened(deviations: Sequence[Deviation], records: Sequence[Record], predictions: Sequence[Floats], axis: float) -> list[Deviation]:
+    """Deviations as they would be without noise of the ``axis``: those of steep places smaller."""
+    factors = [factor_of(records[d.index], predictions[d.index], axis)[d.rows] for d in deviations]
+    return [replace(d, values=d.values / factor, factor=factor) for d, factor in zip(deviations, factors)]

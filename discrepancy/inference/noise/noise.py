@@ -8,11 +8,11 @@ noise is taken, and without that the fast part of the residual, inflated: both a
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.noise.axis_noise import axis_noise_of, slopes_of
+from discrepancy.inference.noise.axis_noise import axis_noise_of, evened, factor_of, slopes_of
 from discrepancy.inference.noise.correlation import autoregression_of, correlation_of, detrended_values, trend_of
 from discrepancy.inference.noise.outliers import CUT, huber_weights, local_deviation, robust_scale, usable
 from discrepancy.inference.noise.replicates import Deviation, deviations_of
@@ -214,18 +214,6 @@ def _signals(
     stream = StreamNoise(scale, scales, False, length, nugget, taps, patterns, {"main": float(known), **between}, source, tail, axis=axis)
     weights = _weights(stream, deviations if replicated else [], records, residuals, predictions, masks, indices)
     return stream, weights, note
-
-
-def factor_of(record: Record, predicted: Floats, axis: float) -> Floats:
-    """(n,) by how much the noise of each sample is larger for the noise of its ``axis``, in units of that of the signal."""
-    factor: Floats = np.hypot(1.0, axis * slopes_of(record, predicted))
-    return factor
-
-
-def evened(deviations: Sequence[Deviation], records: Sequence[Record], predictions: Sequence[Floats], axis: float) -> list[Deviation]:
-    """Deviations as they would be without noise of the ``axis``: those of steep places smaller."""
-    factors = [factor_of(records[d.index], predictions[d.index], axis)[d.rows] for d in deviations]
-    return [replace(d, values=d.values / factor, factor=factor) for d, factor in zip(deviations, factors)]
 
 
 def known_of_slow(deviations: Sequence[Deviation], length: float) -> dict[str, float]:
