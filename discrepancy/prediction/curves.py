@@ -124,7 +124,8 @@ def errors_by_level(curve: Curve[Nodes], change: Callable[[Nodes], Floats]) -> E
         # One turn is like the others.
         nodes = nodes.beginning()
         at = change(nodes)
-        size, between = float(np.std(at)), None if curve.bench.fineness and curve.bench.fineness.rough else curve.between(nodes)
+        size, fineness = float(np.std(at)), curve.bench.fineness
+        between = None if fineness and fineness.rough else curve.between(nodes)
         if between is None:
             return nodes.error(at), size
         # Nodes that a wave is too fast for do not show it.

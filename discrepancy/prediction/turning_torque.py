@@ -96,13 +96,17 @@ def fitted(way: Floats, k: int, noise: float, pace: float) -> tuple[float, float
     x = np.arange(len(way)) - float(k)
     shapes = []
     for place in max(0.5, WITHIN * noise / pace) * np.linspace(-1.0, 1.0, PLACES)[1:-1]:
-        columns = np.column_stack([np.ones_like(x), x - place, np.abs(x - place)])
-        amounts, *_ = np.linalg.lstsq(columns, way, rcond=None)
-        shapes.append((float(np.sum((way - columns @ amounts) ** 2)), place, float(amounts[0]), 4))
-    columns = np.column_stack([np.ones_like(x), x, x**2])
-    amounts, *_ = np.linalg.lstsq(columns, way, rcond=None)
+        left, amounts = fit_of(way, np.column_stack([np.ones_like(x), x - place, np.abs(x - place)]))
+        shapes.append((left, place, float(amounts[0]), 4))
+    left, amounts = fit_of(way, np.column_stack([np.ones_like(x), x, x**2]))
     place = -0.5 * amounts[1] / min(amounts[2], -1e-300)
     if abs(place) < MOST * k:
-        shapes.append((float(np.sum((way - columns @ amounts) ** 2)), float(place), float(amounts[0] + 0.5 * amounts[1] * place), 3))
+        shapes.append((left, float(place), float(amounts[0] + 0.5 * amounts[1] * place), 3))
     left, place, torque, numbers = min(shapes)
     return (place, torque) if np.sqrt(left / (len(way) - numbers)) <= MORE * noise else None
+
+
+def fit_of(way: Floats, columns: Floats) -> tuple[float, Floats]:
+    """(sum of squares that is left, amounts) of a ``way`` (n,) fitted by ``columns`` (n, m)."""
+    amounts = np.asarray(np.linalg.lstsq(columns, way, rcond=None)[0], np.float64)
+    return float(np.sum((way - columns @ amounts) ** 2)), amounts
