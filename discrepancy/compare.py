@@ -216,16 +216,21 @@ def another_reducer(model: PhysicalModel) -> Reducer | None:
     return None if named is None or named.name == model.file.reducer.name else named
 
 
+def reducer_words(model: PhysicalModel) -> list[str]:
+    """That the campaign is of another reducer, and what to do."""
+    if (named := another_reducer(model)) is None:
+        return []
+    made_of = model.file.reducer.name
+    return [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect; take {named.name}"]
+
+
 def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure], runs: Sequence[Mapping[str, Any]] = ()) -> list[str]:
     """What is said before anything is fitted: another reducer, wrong angles, shuffled rows, samples and repetitions far off, a base that is too soft,
     conditions that leave something out; ``runs``: with what the model makes of them, where it was held against them."""
-    named = another_reducer(model)
-    made_of = model.file.reducer.name
-    other = [f"the campaign is of {named.name}, the model is made of {made_of}: whatever differs between the two looks like an effect"] if named else []
     angles = [found.sentence for found in (*angle_doubts(model.campaign), *order_of_rows(Design(model.campaign)))]
     samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
     repetitions = [outlier_text(found, model, runs) for found in model.outlying]
-    return [*other, *angles, *samples, *repetitions, *too_soft(figures, model.bench), *incomplete(model.campaign)]
+    return [*reducer_words(model), *angles, *samples, *repetitions, *too_soft(figures, model.bench), *incomplete(model.campaign)]
 
 
 def incomplete(campaign: Campaign) -> list[str]:

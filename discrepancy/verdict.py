@@ -17,7 +17,7 @@ from discrepancy.alike.ring_directions import either_texts, seen_from_crank
 from discrepancy.alike.unsearched_places import unsearched_text
 from discrepancy.alike.untold import origins_untold, parts_untold_before
 from discrepancy.campaign.model import Campaign
-from discrepancy.compare import beforehand, figures_of, warnings_of
+from discrepancy.compare import beforehand, figures_of, reducer_words, warnings_of
 from discrepancy.doubts.calibrated_doubts import calibrated_doubts, softer_by_loops
 from discrepancy.doubts.hidden_by_position import hidden_by_position
 from discrepancy.doubts.locked_zeros import zero_texts, zeros_told
@@ -25,8 +25,8 @@ from discrepancy.doubts.unstated_texts import unstated_texts
 from discrepancy.doubts.whose_angle import gained_as_input
 from discrepancy.figures.beside_none import beside_none
 from discrepancy.figures.figure_chance import chance_text
-from discrepancy.figures.key_figures import KeyFigure, calibrated_first
-from discrepancy.figures.stiffest import too_rigid
+from discrepancy.figures.key_figures import GAIN, KeyFigure, calibrated_first
+from discrepancy.figures.stiffest import out_of_reach, too_rigid
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.law.recover import Recovered, recover
 from discrepancy.inference.noise.series import stream_of
@@ -39,7 +39,7 @@ from discrepancy.scales import of_axis, of_signal, unit_of_axis
 from discrepancy.words import as_told
 from discrepancy.words.waves import waves_of
 from discrepancy.words.would_show import WouldShow, would_show
-from fmu_src.progress import task
+from fmu_src.progress import say, task
 from fmu_src.table import Table
 from fmu_src.threads import sharing_no_matrices
 from reducers.library import available
@@ -163,11 +163,14 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         raise KeyboardInterrupt(NOTHING_YET) from stop
     try:
         figures = figures_of(doctor, model)
+        beyond = out_of_reach(figures, model.bench)
     except KeyboardInterrupt:
         doctor.doing = "reading the key figures"
         raise AnswerSoFar(answer_of(model, doctor, doctor.stopped(), [])) from None
     try:
-        found = doctor.run(calibrated_first(figures))
+        for text in [*reducer_words(model), *too_rigid(figures, model.bench, available())]:
+            say(text)
+        found = doctor.run(GAIN if beyond else calibrated_first(figures), "; ".join([*reducer_words(model), beyond]) if beyond else "")
         return answer_of(model, doctor, found, figures_of(doctor, model) if doctor.anew else figures)
     except Interrupted as stop:
         raise AnswerSoFar(answer_of(model, doctor, stop.found, figures)) from None

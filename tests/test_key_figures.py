@@ -8,7 +8,7 @@ import pytest
 
 from discrepancy.figures.drag_figures import FASTEST, MEAN, SLOWEST, of_drag
 from discrepancy.figures.key_figures import LOST_MOTION, STIFFNESS, WIDTH, KeyFigure, calibrated_first, key_figures, of_loop, orders_over, ways
-from discrepancy.figures.stiffest import SUPPORTS, times_with_rigid_supports, too_rigid, too_soft
+from discrepancy.figures.stiffest import HARDLY, SUPPORTS, out_of_reach, times_with, too_rigid, too_soft
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.prediction import bench as virtual
@@ -174,7 +174,16 @@ def test_a_base_that_is_softer_than_what_was_measured_is_said(name, times, said)
     known = virtual.Bench(load_reducer(name), {})
     [told] = too_soft([figure(STIFFNESS, times, 1.0, 0.1)], known)
     assert f"{times:.2g} times as stiff" in told and said in told
-    assert not too_soft([figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)], known)
+    unclear = [figure(STIFFNESS, 1.2, 1.0, 0.01), figure(STIFFNESS, 8.2, 1.0, 3.0), figure(WIDTH, 8.2, 1.0, 0.1)]
+    assert not too_soft(unclear, known) and not out_of_reach(unclear, known)
+
+
+def test_only_what_no_spring_in_its_range_reaches_is_out_of_reach():
+    """With all springs of the file at the stiff ends of their ranges RV20E-121 is 1.6 times as stiff."""
+    soft, rigid = (virtual.Bench(load_reducer(name), {}) for name in ("RV20E-121", "RV20E-121-rigid"))
+    assert not out_of_reach([figure(STIFFNESS, 1.6, 1.0, 0.01)], soft)
+    assert "4 times as stiff as the model" in out_of_reach([figure(STIFFNESS, 4.0, 1.0, 0.01)], soft)
+    assert "its supports do not yield" in out_of_reach([figure(STIFFNESS, 1.6, 1.0, 0.01)], rigid)
 
 
 @pytest.mark.parametrize(("name", "said"), [
@@ -193,7 +202,8 @@ def test_rigid_supports_make_a_reducer_as_stiff_as_a_file_without_their_complian
     paths = {v.name: (v.path, v.unit) for v in supports.variables({}) if v.name in SUPPORTS}
     rigid = {path: f"0 {unit}" for path, unit in paths.values()}
     stiffness = [float(hysteresis("RV20E-121", settings=settings)["torsional_stiffness_Nm_per_arcmin"]) for settings in ({}, rigid)]
-    assert times_with_rigid_supports(virtual.Bench(load_reducer("RV20E-121"), {})) == pytest.approx(stiffness[1] / stiffness[0], rel=0.02)
+    known = virtual.Bench(load_reducer("RV20E-121"), {})
+    assert times_with(known, {name: HARDLY * known.starts[0][name] for name in SUPPORTS}) == pytest.approx(stiffness[1] / stiffness[0], rel=0.02)
 
 
 def test_springs_friction_and_play_come_first_where_the_base_is_stiffer_by_a_factor():
@@ -203,6 +213,16 @@ def test_springs_friction_and_play_come_first_where_the_base_is_stiffer_by_a_fac
     assert "first_stage_play" in calibrated_first([soft, figure(LOST_MOTION, 1.0, 0.2, 0.01)])
     assert calibrated_first([figure(STIFFNESS, 1.0, 1.2, 0.01), wide]) == []
     assert calibrated_first([figure(STIFFNESS, 1.0, 8.0, 3.0)]) == []
+
+
+def test_a_base_out_of_reach_is_off_and_no_effect_is_named_unless_it_explains_that():
+    measured = bench({"spring": 4.5e-6, "ring": 1e-5})
+    found = Diagnostician(measured, orders=ORDERS).run(["sensor_gain"], "8 times as stiff")
+    assert (found.verdict, found.reason, found.effects) == ("base off", "8 times as stiff", [])
+    found = Diagnostician(measured, orders=ORDERS).run(["pin_position_errors"], "8 times as stiff")
+    assert (found.verdict, found.effects) == ("base off", [])
+    found = Diagnostician(bench({"spring": 4.5e-6}), orders=ORDERS).run(["support_compliance"], "8 times as stiff")
+    assert (found.verdict, [e.name for e in found.effects]) == ("one effect", ["support_compliance.housing"])
 
 
 def test_what_is_left_is_looked_for_beside_the_calibrated_base():

@@ -35,6 +35,8 @@ DRAWS = 25
 # calibrates first is fitted before anything else is looked for.
 SOFTER, CLEARLY = 1.5, 5.0
 SPRINGS, FRICTION, PLAY = ("support_compliance",), ("stribeck_friction", "support_hysteresis", "drive_friction"), ("first_stage_play", "output_play")
+# What a base that is too soft may be all the same.
+GAIN = ("sensor_gain",)
 # What a model's figure is read from.
 CURVE = "its curve"
 # Repetitions of one condition that differ by so many times what is usual have a noise of their own (assumed; of two, normal noise does it once in 300).

@@ -1,6 +1,6 @@
 """What to do where the measured reducer is stiffer than the model by a factor, which no effect makes it, or softer than one on rigid supports."""
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 
 import numpy as np
 
@@ -15,12 +15,25 @@ FROM, TO, HARDLY = 0.5, 1.0, 1e-3
 RIGID = "-rigid"
 
 
+def out_of_reach(figures: Sequence[KeyFigure], bench: Bench) -> str:
+    """Where no spring of the base, anywhere in its range, makes the model nearly as stiff as what was measured: what there is to do, else empty."""
+    if not (times := times_as_stiff(figures)):
+        return ""
+    ranges = bench.reducer.ranges
+    stiffest = times_with(bench, {name: ranges[name][0] for name in SUPPORTS if name in ranges})
+    return too_soft(figures, bench)[0] if float(np.median(times)) > SOFTER * stiffest else ""
+
+
+def times_as_stiff(figures: Sequence[KeyFigure]) -> list[float]:
+    """Measured torsional stiffness over the model's, of conditions where it is clearly larger by a factor."""
+    return [f.measured / f.model for f in figures if f.name == STIFFNESS and f.off > CLEARLY and f.measured > SOFTER * f.model > 0.0]
+
+
 def too_soft(figures: Sequence[KeyFigure], bench: Bench) -> list[str]:
     """Stiffer supports, as far as these go; beyond, what else makes a reducer seem stiff."""
-    times = [f.measured / f.model for f in figures if f.name == STIFFNESS and f.off > CLEARLY and f.measured > SOFTER * f.model > 0.0]
-    if not times:
+    if not (times := times_as_stiff(figures)):
         return []
-    measured, most = float(np.median(times)), times_with_rigid_supports(bench)
+    measured, most = float(np.median(times)), times_with(bench, {name: HARDLY * bench.starts[0][name] for name in SUPPORTS})
     first = f"the measured reducer is {measured:.2g} times as stiff as the model: effects add springs, none takes one away, so none can be named from here"
     if measured > most:
         beyond = f"with supports that do not yield the model is {most:.2g} times as stiff:" if most > 1.01 else "its supports do not yield:"
@@ -48,9 +61,9 @@ def too_rigid(figures: Sequence[KeyFigure], bench: Bench, library: Container[str
     ]
 
 
-def times_with_rigid_supports(bench: Bench) -> float:
-    """Torsional stiffness with supports that do not yield, over that of the model."""
+def times_with(bench: Bench, supports: Mapping[str, float]) -> float:
+    """Torsional stiffness with other compliances of the supports, over that of the model."""
     torques = bench.rated_load * np.array([FROM, TO])
     rated = Condition(bench.rated_speed, bench.rated_load)
-    soft, rigid = (np.diff(bench.held(rated, values, torques))[0] for values in ({}, {name: HARDLY * bench.starts[0][name] for name in SUPPORTS}))
-    return float(soft / rigid)
+    soft, stiff = (np.diff(bench.held(rated, values, torques))[0] for values in ({}, supports))
+    return float(soft / stiff)

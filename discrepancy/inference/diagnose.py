@@ -118,14 +118,14 @@ class Diagnostician:
         rivals = self.selection.singles()
         return rivals, self.selection.several(rivals[0]) if rivals else None
 
-    def run(self, first: Sequence[str] = ()) -> Diagnosis:
-        """The whole diagnosis; ``first`` are names of effects that are calibrated before others are looked for.
+    def run(self, first: Sequence[str] = (), beyond: str = "") -> Diagnosis:
+        """The whole diagnosis; ``first`` are calibrated before others are looked for, ``beyond``: what is off unless they explain it.
 
         Ctrl-C raises ``Interrupted`` with what is known by then; run again, it goes on with the fits and predictions that it has.
         """
         self.space.predictions.unfinished = True
         try:
-            found = self.walk(first)
+            found = self.walk(first, beyond)
         except KeyboardInterrupt:
             if not hasattr(self, "localisation"):
                 raise
@@ -148,7 +148,7 @@ class Diagnostician:
         self.space.predictions.unfinished = True
         return True
 
-    def walk(self, first: Sequence[str]) -> Diagnosis:
+    def walk(self, first: Sequence[str], beyond: str = "") -> Diagnosis:
         """From the base fit to the verdict."""
         settings = self.settings
         local = self.prepare()
@@ -157,15 +157,15 @@ class Diagnostician:
         self.doing = "screening"
         rivals, start = self.calibrated(first)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
+        p_local, by_place = min((g.p for g in local.groups), default=1.0), bool(local.findings)
+        if beyond and (start is None or self.judgement.leftover(start)[0]):
+            return self.nothing_named(by_place, rivals, p_first, p_local, beyond)
         self.screened(beside=start)
-        p_screen = min((s.p_adjusted for s in self.screening.scores), default=1.0)
-        p_screen = min(p_screen, p_first)
+        p_screen = min([p_first, *(s.p_adjusted for s in self.screening.scores)])
         self.say_scores()
         self.outlook.screened()
         if settings.sure_level <= p_screen:
             p_screen = min(p_screen, self.p_refitted())
-        p_local = min((g.p for g in local.groups), default=1.0)
-        by_place = bool(local.findings)
         # where the misfit is beyond doubt, or unused runs may confirm what is named, naming needs less
         by_candidate = p_screen < (settings.naming_level if by_place or self.space.held_out else settings.screen_level)
         selection, judgement = self.selection, self.judgement
@@ -177,12 +177,12 @@ class Diagnostician:
         if start is None:
             start = number_first(rivals, settings.margin)[0]
             if self.begins_anew(start):
-                return self.walk(first)
+                return self.walk(first, beyond)
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
         final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
         if final is not start and self.begins_anew(final):
-            return self.walk(first)
+            return self.walk(first, beyond)
         if not self.beyond_chance(final):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         weighed = judgement.weighed(final, selection.fitted_in_earnest(final, rivals), settings.margin)
@@ -274,9 +274,9 @@ class Diagnostician:
         best = number_first(rivals, self.settings.margin)[0]
         return best.candidates[0].part == BASE and self.beyond_chance(best) and not self.judgement.leftover(best)[0]
 
-    def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float) -> Diagnosis:
-        """No candidate explains anything; ``by_place`` something is off all the same."""
-        verdict, reason = decide(False, by_place, 0, 0, 0.0, True, self.settings)
+    def nothing_named(self, by_place: bool, rivals: list[Refit], p_screen: float, p_local: float, beyond: str = "") -> Diagnosis:
+        """No candidate explains anything; ``by_place`` something is off all the same, ``beyond`` what of the base."""
+        verdict, reason = (BASE_OFF, beyond) if beyond else decide(False, by_place, 0, 0, 0.0, True, self.settings)
         if verdict == NONE and computed_wrongly(self.space.base, self.settings.coverage):
             verdict, reason = BASE_OFF, "no effect is missing: what is off is what the base model computes, by more than was assumed of it"
         found = self.teller.diagnosis(verdict, reason, [], rivals, 0.0, {}, p_screen, p_local, {}, None)
