@@ -202,11 +202,12 @@ def test_an_extension_goes_on_after_control_c_from_what_it_had_fitted(monkeypatc
 
 def test_interrupted_while_the_base_is_fitted_the_command_says_that_nothing_is_known(monkeypatch, capsys, tmp_path):
     from cli.main import main
-    from discrepancy import verdict
+    from discrepancy import remembered, verdict
 
     campaign = str(ROOT / "examples" / "hidden_effect" / "campaign")
     monkeypatch.setattr(verdict.Diagnostician, "prepare", lambda self: signal.raise_signal(signal.SIGINT))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    # The process knows its own cache already, where a diagnosis of these files may lie.
+    monkeypatch.setattr(remembered, "cache_folder", lambda name: tmp_path)
     assert main(["diagnose", "RV20E-121", campaign]) == 130
     assert "rvwear diagnose: interrupted (while the base model was fitted" in capsys.readouterr().err
 

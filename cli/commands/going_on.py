@@ -26,12 +26,12 @@ def line_after(options: argparse.Namespace, answer: "Answer") -> str:
         asked = "questions that are" if len(answer.untold) > 1 else "question that is"
         why = f"of this model, with the {asked} open" if answer.untold else "of this model: nothing is missing here"
         return f"{shlex.join(['rvwear', 'build', '--reducer', options.model, '--output', 'units'])}    # the FMUs {why}"
-    if answer.verdict == BASE_OFF and not numbers_of(answer):
-        return ""
     data = ["--data", options.data] if options.data else []
     if named := another_reducer(answer.model):
         words = ["rvwear", "diagnose", named.as_named, options.campaign, *data]
         return f"{shlex.join(words)}    # the reducer that the campaign names"
+    if answer.verdict == BASE_OFF and not numbers_of(answer):
+        return ""
     # What is not sure is added by name alone.
     foremost = first_to_add(answer)
     by_name = [word for name in (foremost["candidates"][:1] if foremost else named_in(answer)) for word in ("--effect", name)]
