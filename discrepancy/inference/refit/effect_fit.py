@@ -26,6 +26,8 @@ LEAVES, EXPLAINS, ELSEWHERE = 2.0, 0.5, 2
 # A fit that is searched for, of which a further step promises more than this chi-square, takes sensitivities anew so often: a wear
 # coefficient multiplies what a law does, and the base fit's says little where the law has halved the wear.
 UNFINISHED, ANEW = 5.0, 3
+# A shape within this share of a bound ended there.
+AT_BOUND = 1e-3
 # Where the nuisances that follow gain more than this share of what was promised without them, the effect stands where frozen ones had put it.
 BENT = 0.05
 
@@ -138,6 +140,9 @@ def _search(
         found.append(_descend(frozen, start))
         if frozen.misled and not widely:
             return found[-1]
+    ended = min(found, key=lambda f: cost(f[0]))[0]
+    if len(candidates) > 1 and (usual := _usual_again(candidates, ended)):
+        found.append(_descend(frozen, {**ended, **usual}))
     if min(cost(f[0]) for f in found) > frozen.space.base.chi2:
         # Worse than no effect at all: the start lay where the effect runs away, and slopes there lead nowhere.
         found += [_descend(frozen, start) for start in halved([p for c in candidates for p in c.amplitudes], starts[0], cost, frozen.space.base.chi2)]
@@ -157,6 +162,12 @@ def _search(
             chosen += [start for left, start in best_of_each[:OTHERS] if left < frozen.space.base.chi2]
         found += [_descend(frozen, start) for start in chosen]
     return min(found, key=lambda f: cost(f[0]))
+
+
+def _usual_again(candidates: Sequence[Candidate], values: Mapping[str, float]) -> dict[str, float]:
+    """Shapes that ended at a bound, at what they usually are: an effect that began far too small, for beside others it is larger, may have an optimum there."""
+    shapes = [p for c in candidates for p in c.shapes if not p.is_direction]
+    return {p.name: p.off for p in shapes if np.isclose(values[p.name], (p.lower, p.upper), rtol=AT_BOUND, atol=0.0).any()}
 
 
 def _information(frozen: Frozen, columns: Floats) -> Floats:
