@@ -14,9 +14,8 @@ from discrepancy.prediction.by_effects import ByEffects, Effects
 from discrepancy.prediction.conditions import angle_zero
 from discrepancy.problem import Record
 
-# Nearer places show the same [rad of the input]: where three lobes of 4 um stand beside a soft seat a whole degree is worth 40 of chi-square in 3,800 samples
-# of 0.8 arcsec, and of two springs that show alike one was no alternative.
-NEAR = math.radians(0.2)
+# Nearer places show the same [rad of the input].
+NEAR = math.radians(1.0)
 
 
 class LockedPlaces(ByEffects):

@@ -252,7 +252,7 @@ class Refits:
             left.append(left_by(self.space, fit))
             by_errors.append(left[-1] if unseen else left_by(few, fit))
             found.append(model.places(predictions.active(fit.values)))
-        best = int(np.argmin(left))
+        best, stood = int(np.argmin(left)), [fit.values for fit in begun]
         if (other := int(np.argmin(by_errors))) != best:
             # Loops hold what a lag leaves open, but a wrong zero has bent what they alone tell, too: a fit of all says which is right.
             for k in (best, other):
@@ -264,7 +264,7 @@ class Refits:
         chosen = 0 if left[best] > left[0] - SURELY else best
         predictions.put(begun[chosen].values, found[chosen])
         if len(self.space.training) == len(self.space.records):  # else what goes with runs that are held out is left to be placed
-            self.settled[result.key], self.places[result.key] = begun[chosen].values, placed
+            self.settled[result.key], self.places[result.key] = stood[chosen], placed
         self.gained_there[result.key] = max(left[0] - left[chosen], self.gained_there.get(result.key, 0.0))
         return result if chosen == 0 else replace(result, fit=begun[chosen])
 
