@@ -168,9 +168,10 @@ def diagnose(file: ModelFile, campaign: Campaign, settings: Settings = Settings(
         doctor.doing = "reading the key figures"
         raise AnswerSoFar(answer_of(model, doctor, doctor.stopped(), [])) from None
     try:
-        for text in [*reducer_words(model), *too_rigid(figures, model.bench, available())]:
+        other = reducer_words(model)
+        for text in [*other, *too_rigid(figures, model.bench, available())]:
             say(text)
-        found = doctor.run(GAIN if beyond else calibrated_first(figures), "; ".join([*reducer_words(model), beyond]) if beyond else "")
+        found = doctor.run(GAIN, "; ".join([*other, beyond])) if beyond else doctor.run(calibrated_first(figures))
         return answer_of(model, doctor, found, figures_of(doctor, model) if doctor.anew else figures)
     except Interrupted as stop:
         raise AnswerSoFar(answer_of(model, doctor, stop.found, figures)) from None

@@ -140,9 +140,9 @@ def proposal_for(answer: Answer, campaign: Campaign) -> NextRun:
     start = f"{f'beside {known} ' if known else ''}something is left {answer.left_over}" if unexplained else ""
     if answer.verdict == BASE_OFF and len(names) < 2:
         off = ", ".join(as_told.told_name(e.name, as_told.tables_of(answer.model)) for e in answer.diagnosis.base_off)
+        number = f"no effect is missing: the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance"
         # Of no number, it is the model as a whole.
-        correct = f"the base model is off ({off}); correct it (rvwear extend) or declare it as a nuisance"
-        text = f"{f'no effect is missing: {correct}' if fits.members else f'{answer.reason}; mend that'}, then ask again"
+        text = f"{number if fits.members else f'{answer.reason}; mend that'}, then ask again"
         return NextRun(answer, None, list(names), text, left)
     if len(names) < 2:
         against = confirming(answer, campaign, members[0]) if answer.verdict == ONE and members else ""

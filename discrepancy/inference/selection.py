@@ -227,7 +227,7 @@ class Selection(Alone):
         """A fit in which no member gives way to another in its place: a joint one, or one alone that stands for a simpler effect."""
         if len(final.candidates) == 1 and not is_settled(final):
             alone = [r for r in fits_alone(self.refits) if r.key in self.refits.final_fits]
-            return next((r for r in alone if r.key != final.key and self.gives_way(final, final.candidates[0], r)), final)
+            return next((r for r in alone if self.gives_way(final, final.candidates[0], r)), final)
         for _ in range(MOST_EXCHANGES if len(final.candidates) > 1 else 0):
             better = [r for c in final.candidates for r in self.in_place_of(final, c) if self.gives_way(final, c, r)]
             if not better:

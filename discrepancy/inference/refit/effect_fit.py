@@ -140,9 +140,10 @@ def _search(
         found.append(_descend(frozen, start))
         if frozen.misled and not widely:
             return found[-1]
-    ended = min(found, key=lambda f: cost(f[0]))[0]
-    if len(candidates) > 1 and (usual := _usual_again(candidates, ended)):
-        found.append(_descend(frozen, {**ended, **usual}))
+    if len(candidates) > 1:
+        ended = min(found, key=lambda f: cost(f[0]))[0]
+        if usual := _usual_again(candidates, ended):
+            found.append(_descend(frozen, {**ended, **usual}))
     if min(cost(f[0]) for f in found) > frozen.space.base.chi2:
         # Worse than no effect at all: the start lay where the effect runs away, and slopes there lead nowhere.
         found += [_descend(frozen, start) for start in halved([p for c in candidates for p in c.amplitudes], starts[0], cost, frozen.space.base.chi2)]
