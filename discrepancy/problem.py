@@ -24,6 +24,8 @@ FREE_ZERO = ("transmission_error", "hysteresis")
 ERROR, ORDERS = "transmission_error", "transmission_order"
 # Quantities whose zero may be said to be known; an order table has a mean then, order 0.
 WITH_ZERO = (*FREE_ZERO, ORDERS)
+# Axis of a record that lacks some of its samples: their numbers in the file, which say where they stand beside those of a repetition.
+SAMPLE = "sample"
 # Said in place of an angle: what was measured is a mean over a turn of the cranks.
 MEAN = "mean"
 # ``part`` of a candidate that is no effect but a number of the base model, which may be off within its range.

@@ -8,12 +8,13 @@ import pytest
 
 from discrepancy.campaign.load import load_campaign
 from discrepancy.closed_loop import is_closed, joined_after, uncertain
+from discrepancy.inference.noise.replicates import deviations_of
 from discrepancy.model_file import load_model
 from discrepancy.prediction.bench import Bench
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.defined_samples import defined, defined_at
 from discrepancy.prediction.over_torque import OverTorque, loop_change
-from discrepancy.problem import Record
+from discrepancy.problem import SAMPLE, Record
 from orchestrator.settings import Setting
 from studies.hysteresis import one_angle, torque_way
 from studies.solve import ARCMIN
@@ -116,6 +117,22 @@ def test_repetitions_are_left_out_alike():
     kept = [defined_at(loop, several) for loop in loops]
     assert len({joined_after(torque, loop.values) for loop in loops}) > 1
     assert all(np.array_equal(one, kept[0]) for one in kept) and 0.5 < kept[0].mean() < 0.97
+
+
+def test_repetitions_of_which_other_samples_were_left_out_deviate_by_their_noise():
+    """Sample was held against sample by their numbers among what was left: a base model that is too stiff came out as 13 N m of noise of the torque meter."""
+    torque, noise = cycle(400), 3e-4
+    loops = tuple(
+        Record(f"r{k}", "hysteresis", "rad", "c", k, branches(torque) + noise * np.random.default_rng(k).standard_normal(len(torque)), {"torque": torque},
+               {"locked_at": 0.0}, tags={"locked": "input"})
+        for k in (1, 2)
+    )  # fmt: skip
+    several = replace(campaign(), records=loops, rated_torque=167.0)
+    shorter = replace(loops[1], values=loops[1].values[70:], axes={"torque": torque[70:], SAMPLE: np.arange(70.0, len(torque))})
+    left = [defined(loops[0], several), shorter]
+    assert len(left[0].values) < len(torque) and np.array_equal(left[0].axes[SAMPLE], np.flatnonzero(defined_at(loops[0], several)))
+    (deviation,) = deviations_of(left, [r.values for r in left], [np.ones(len(r.values), bool) for r in left], [0, 1])
+    assert deviation.values.size > 200 and np.std(deviation.values) == pytest.approx(noise, rel=0.15)
 
 
 def test_what_is_none():

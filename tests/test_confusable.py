@@ -44,6 +44,14 @@ class Rival:
     def own(self):
         return [p for c in self.candidates for p in c.parameters]
 
+    @property
+    def at(self):
+        return {p.name: self.fit.values[p.name] for p in self.own}
+
+    @property
+    def key(self):
+        return frozenset(c.name for c in self.candidates)
+
 
 def rival(name, chi2, size=1.0, scale=1.0, bounds=(), shape=None, known=0.1, part="plant"):
     amplitude = Parameter(f"{name}_size", "1", 0.0, -1e3, 1e3, scale)

@@ -55,8 +55,6 @@ def test_a_member_at_a_bound_gives_way_to_a_simpler_one_that_fits_as_well():
 def test_an_effect_alone_that_stands_for_a_simpler_one_gives_way_to_it():
     """A soft housing under dense loops was told first as a seat with memory, the ratio of which went from bound to bound, that fitted better by 6 of 8,000."""
     seat, spring, rough = joint(FRICTION, chi2=7983.8), rival("spring", 7990.0), rival("other", 7989.0)
-    for fit in (seat, spring, rough):
-        fit.key = frozenset([fit.name])
     refits = SimpleNamespace(fitted={r.key: r for r in (seat, spring, rough)}, final_fits=(seat.key, spring.key))
     selection = SimpleNamespace(settings=Settings(), refits=refits, gives_way=gives_way_of)
     assert Selection.settled(selection, seat) is spring and Selection.settled(selection, spring) is spring
@@ -102,6 +100,21 @@ def test_what_was_close_to_the_first_alone_is_tried_beside_the_second(monkeypatc
     monkeypatch.setattr("discrepancy.inference.selection.joint_gain", lambda *_: 9e6)
     tried = Selection.exchanged(selection, "spring", "lobes", 8.9e6, selection.close_alone("spring"))
     assert tried == [(["other", "lobes"], {"other_size": 1.0})]
+
+
+def test_what_calibrates_as_well_with_other_effects_is_kept_for_the_next_to_tell():
+    """On a rigid base a seat with memory does what a spring and friction do; with a hole of a disc besides they answered "incomplete"."""
+    seat, both, play = rival("seat", 46700.0), joint(SPRING, FRICTION, chi2=46900.0), joint(rival("play", 0.0), SPRING, chi2=60000.0)
+    wider, swapped = joint(*(rival(n, 0.0) for n in ("seat", "play", "gap")), chi2=46600.0), rival("other", 46750.0)
+    for fit in (seat, both, play, wider, swapped):
+        fit.gain = 8.9e6
+    refits = SimpleNamespace(fitted={r.key: r for r in (seat, both, play, wider, swapped)})
+    selection = SimpleNamespace(refits=refits, settings=Settings(), several=lambda best: best)
+    for name in ("as_good", "little_behind"):
+        setattr(selection, name, getattr(Selection, name).__get__(selection))
+    assert Selection.calibrations(selection, seat) == [seat, both]
+    both.fit.chi2 = 2e5
+    assert Selection.calibrations(selection, seat) == [seat]
 
 
 @pytest.fixture(scope="module")

@@ -109,14 +109,13 @@ class Diagnostician:
     def selection(self) -> Selection:
         return Selection(self.chosen, self.columns, self.screening, self.refits, self.judgement, self.settings, self.outlook)
 
-    def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], Refit | None]:
-        """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together."""
-        candidates = [c for c in self.candidates if effect_of(c.name) in first]
-        if not candidates:
-            return [], None
+    def calibrated(self, first: Sequence[str]) -> tuple[list[Refit], list[Refit]]:
+        """Fits of the effects that key figures call for, before anything else is looked for: rivals alone, and the best together with what does as well."""
+        if not (candidates := [c for c in self.candidates if effect_of(c.name) in first]):
+            return [], []
         self.screened(candidates)
-        rivals = self.selection.singles()
-        return rivals, self.selection.several(rivals[0]) if rivals else None
+        rivals = (selection := self.selection).singles()
+        return rivals, selection.calibrations(rivals[0]) if rivals else []
 
     def run(self, first: Sequence[str] = (), beyond: str = "") -> Diagnosis:
         """The whole diagnosis; ``first`` are calibrated before others are looked for, ``beyond``: what is off unless they explain it.
@@ -155,7 +154,8 @@ class Diagnostician:
         self.outlook.fitted(self.space.base)
         say(misfit_text(local))
         self.doing = "screening"
-        rivals, start = self.calibrated(first)
+        rivals, calibrations = self.calibrated(first)
+        start = next(iter(calibrations), None)
         p_first = min((s.p_adjusted for s in self.screening.scores), default=1.0) if start else 1.0
         p_local, by_place = min((g.p for g in local.groups), default=1.0), bool(local.findings)
         if beyond and (start is None or self.judgement.leftover(start)[0]):
@@ -180,7 +180,7 @@ class Diagnostician:
                 return self.walk(first, beyond)
         say(f"best alone: {start.name}, {chi_text(start.gain)} of chi-square")
         self.doing = f"looking for what is missing beside {start.name}"
-        final = selection.settled(selection.several(start, len(start.candidates) if first else 0))
+        final = selection.settled(selection.several(start, calibrations))
         if final is not start and self.begins_anew(final):
             return self.walk(first, beyond)
         if not self.beyond_chance(final):

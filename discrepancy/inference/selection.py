@@ -28,7 +28,8 @@ from discrepancy.problem import BASE, Candidate, Placing, effect_of
 # Refits are dear: what a linear estimate leaves this far behind is not tried.
 HOPELESS = 0.35
 HOPELESS_EXCHANGE, HOPELESS_STAND_IN = 0.7, 0.5
-# Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold.
+# Of what a further effect must gain: play shows three tenths of it to first order, for it begins with a threshold; and what rough predictions show of it
+# where it is worth a fit in earnest.
 FAR_SHORT = 0.2
 # So many one-sided effects that are not promising are tried beside others: they may begin with no slope.
 MOST_THRESHOLDS = 3
@@ -76,13 +77,14 @@ class Selection(Alone):
         self.in_place: dict[tuple[frozenset[str], str], list[Refit]] = {}
 
     # several ------------------------------------------------------------------------------
-    def several(self, best: Refit, calibrated: int = 0) -> Refit:
+    def several(self, best: Refit, calibrations: Sequence[Refit] = ()) -> Refit:
         """Forward selection with a backward check; what counts is what a further effect gains of that which is left.
 
-        ``calibrated`` of the effects in ``best`` do not count towards the most that are looked for.
+        ``calibrations``: ``best`` and what calibrates as well, the effects of which do not count towards the most that are looked for.
         """
         settings, current = self.settings, best
-        while len(current.candidates) < settings.most_effects + calibrated:
+        calibrating = frozenset(name for fit in calibrations for name in fit.key)
+        while len(current.key - calibrating) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
@@ -92,8 +94,8 @@ class Selection(Alone):
                 promising += self.thresholds(more, [*names, *(s.name for s in promising)])
             if not promising:
                 break
-            own = {p.name: current.fit.values[p.name] for p in current.own}
-            self.outlook.found(len(names) - calibrated)
+            own = current.at
+            self.outlook.found(len(current.key - calibrating))
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
             # exchange of an earlier member: the first choice was made without the second
             challenger = ranked(trials, settings.margin, current.fit.chi2)[0]
@@ -101,10 +103,14 @@ class Selection(Alone):
             if len(names) == 1:
                 close = self.close_alone(names[0]) if current.fit.chi2 - challenger.fit.chi2 >= FAR_SHORT * least else []
                 trials += self.exchanged(names[0], newest, challenger.gain, close)
-                if not calibrated and self.all_placed(current):
+                if not calibrations and self.all_placed(current):
                     trials = self.widely_beside(trials, current.fit.chi2)
                     if leaves_much(trials):
                         trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
+            if current is best:
+                trials += [self.refits.fit([*(c.name for c in other.candidates), newest], other.at) for other in calibrations[1:]]
+            if current.fit.chi2 - min(r.fit.chi2 for r in trials) + FAR + self.refits.gained_in_earnest(current) < FAR_SHORT * least:
+                break
             challenger = self.in_earnest(trials, current.fit.chi2)
             extra = current.fit.chi2 - challenger.fit.chi2
             if extra < least or extra < 12 + 2 * len(challenger.candidates[-1].parameters) or newest_does_nothing(challenger):
@@ -115,6 +121,13 @@ class Selection(Alone):
             if len(current.candidates) <= len(names):
                 break
         return current
+
+    def calibrations(self, first: Refit) -> list[Refit]:
+        """What calibrates best, beginning with ``first``, and the fit of other effects that comes as near as laws do whose form is slightly off, if it differs
+        by more than one: a seat with memory does what a spring and friction do.  Which it is the next effect tells; one in place of one is tried at the end."""
+        best = self.several(first)
+        others = [r for r in self.refits.fitted.values() if not r.key > best.key and len(r.key ^ best.key) > 2 and r.fit.chi2 < self.as_good(best)]
+        return [best, *sorted(others, key=penalised)[:1]]
 
     def in_earnest(self, trials: Sequence[Refit], before: float) -> Refit:
         """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next, and what is less ahead of the next
@@ -172,7 +185,7 @@ class Selection(Alone):
     def where_alone(self, name: str) -> dict[str, float] | None:
         """Where an effect was fitted alone: a score beside one that does the same says nothing of its size."""
         alone = self.refits.fitted.get(frozenset([name]))
-        return {p.name: alone.fit.values[p.name] for p in alone.own} if alone else None
+        return alone.at if alone else None
 
     def thresholds(self, more: Screen, known: Sequence[str]) -> list[Score]:
         """Effects that begin with no slope (play): beside others a score test sees little of them, so some are tried at their typical size."""

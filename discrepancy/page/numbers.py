@@ -7,6 +7,7 @@ import numpy as np
 
 from discrepancy.page import amounts, panels
 from discrepancy.page.runs import Run, slug
+from discrepancy.problem import SAMPLE
 from fmu_src.arrays import Floats
 from pages.content import Choice, Choosable
 from pages.look import Figure, short
@@ -43,7 +44,7 @@ def figure(
 
 def varying(runs: Sequence[Run]) -> list[str]:
     """Factors, and axes of short rows, that are given everywhere and differ."""
-    names = dict.fromkeys(n for run in runs for n in (*run.record.factors, *run.record.axes))
+    names = dict.fromkeys(n for run in runs for n in (*run.record.factors, *run.record.axes) if n != SAMPLE)
     found = []
     for name in names:
         values = [v for run in runs if (v := places(run, name)) is not None]

@@ -6,7 +6,7 @@ import numpy as np
 
 from discrepancy.campaign.model import Campaign
 from discrepancy.closed_loop import joined_after, uncertain, way_of
-from discrepancy.problem import Record
+from discrepancy.problem import SAMPLE, Record
 from fmu_src.arrays import Mask
 
 # Share of the rated torque below which a held output has no defined place.
@@ -15,12 +15,12 @@ FLOATING = 0.01
 
 def defined(record: Record, campaign: Campaign) -> Record:
     """A loop without the samples near no torque, where the output floats in its clearances, and those that hang on what was before it: what is left
-    of one that joined its branch is on it as one that was gone round before."""
+    of one that joined its branch is on it as one that was gone round before.  Samples keep their numbers: what repeats it may be without others."""
     way = joined(record, campaign)
     kept = kept_beyond(way, record, campaign)
     if kept.all():
         return record
-    axes = {k: np.asarray(v)[kept] for k, v in record.axes.items()}
+    axes = {k: np.asarray(v)[kept] for k, v in record.axes.items()} | {SAMPLE: np.flatnonzero(kept).astype(float)}
     return replace(record, values=record.values[kept], axes=axes, closed=record.closed or way > 0.0)
 
 

@@ -78,6 +78,11 @@ class Refit:
     def own(self) -> list[Parameter]:
         return [p for c in self.candidates for p in c.parameters]
 
+    @property
+    def at(self) -> dict[str, float]:
+        """Where its effects stand."""
+        return {p.name: self.fit.values[p.name] for p in self.own}
+
 
 def refit(space: Workspace, candidates: Sequence[Candidate], scores: Sequence[Score], fixed: dict[str, float] | None = None,
           widely: bool = False, least: float = np.inf) -> Refit:  # fmt: skip
