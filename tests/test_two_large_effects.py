@@ -15,7 +15,7 @@ SAMPLES = 1000
 
 def fit(name, chi2, gain=0.0, part="plant"):
     found = rival(name, chi2, part=part)
-    found.gain, found.key, found.fit.residual = gain, frozenset([name]), range(SAMPLES)
+    found.gain, found.fit.residual = gain, range(SAMPLES)
     return found
 
 
@@ -44,15 +44,15 @@ def test_pairs_begin_with_others_that_explain_nearly_as_much(monkeypatch):
     def screened(space, candidates, columns, fit, seed, draws, exclude):
         return SimpleNamespace(scores=[s for s in scores if s.name not in exclude])
 
-    def race(what, promising, names, own):
-        beside.append((names[0], [s.name for s in promising]))
-        return [fit(f"{names[0]} + {s.name}", 1000.0) for s in promising]
+    def race(what, promising, other):
+        beside.append((other.name, [s.name for s in promising]))
+        return [fit(f"{other.name} + {s.name}", 1000.0) for s in promising]
 
     monkeypatch.setattr("discrepancy.inference.selection.screen", screened)
     candidates = [c for r in known for c in r.candidates]
     # This pair was fitted before.
     fitted = {r.key: r for r in known} | {frozenset(["other0", "second"]): None}
-    chosen = selection(refits=SimpleNamespace(fitted=fitted), candidates=candidates, space=None, columns=None, race=race, where_alone=lambda name: None)
+    chosen = selection(refits=SimpleNamespace(fitted=fitted), candidates=candidates, space=None, columns=None, race=race)
     found = Selection.begun_otherwise(chosen, first)
     assert beside == [("other0", ["other1"]), ("other1", ["second"]), ("other2", ["second", "other1"])]
     assert [r.name for r in found] == ["other0 + other1", "other1 + second", "other2 + second", "other2 + other1"]

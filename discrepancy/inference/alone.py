@@ -167,8 +167,10 @@ class Alone:
         gain, sizes = bounded_gain(self.columns, self.space.base, score, candidate.amplitudes)
         return gain - price(candidate, sizes)
 
-    def race(self, what: str, scores: Sequence[Score], names: Sequence[str] = (), own: dict[str, float] | None = None) -> list[Refit]:
-        """Refits of each of ``scores`` beside the named effects, which stand at ``own``; the first two say what the others must reach."""
+    def race(self, what: str, scores: Sequence[Score], beside: Refit | None = None) -> list[Refit]:
+        """Refits of each of ``scores``, ``beside`` the effects of a fit from where these stand; the first two say what the others must reach: what rough
+        predictions err in those effects they do alike in all."""
+        names, own, before = ([], None, self.space.base.chi2) if beside is None else ([c.name for c in beside.candidates], beside.at, beside.fit.chi2)
 
         def one(least: float, score: Score) -> Refit:
             return self.refits.fit([*names, score.name], own, [score], least)
@@ -177,12 +179,12 @@ class Alone:
         if len(scores) < 3:
             return ahead
         best = min(ahead, key=penalised)
-        least = self.near(best) + penalised(best) - best.fit.chi2
+        least = self.near(best, before - best.fit.chi2) + penalised(best) - best.fit.chi2
         return [*ahead, *self.tried(f"{what}, those further behind", partial(one, least), scores[2:])]
 
-    def near(self, best: Refit) -> float:
-        """Chi-square below which a rough fit may be as good as ``best``."""
-        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain, 0.0)
+    def near(self, best: Refit, gained: float | None = None) -> float:
+        """Chi-square below which a rough fit may be as good as ``best``, which ``gained`` so much beside what both have."""
+        return best.fit.chi2 + 4 * self.settings.margin + ROUGH * max(best.gain if gained is None else gained, 0.0)
 
     def as_good(self, best: Refit, gained: float | None = None) -> float:
         """Chi-square below which a fit in earnest may stand beside ``best`` as an answer, or in place of an effect in it that ``gained`` so much."""

@@ -94,9 +94,8 @@ class Selection(Alone):
                 promising += self.thresholds(more, [*names, *(s.name for s in promising)])
             if not promising:
                 break
-            own = current.at
             self.outlook.found(len(current.key - calibrating))
-            trials = self.race(f"fitting beside {' + '.join(names)}", promising, names, own)
+            trials = self.race(f"fitting beside {' + '.join(names)}", promising, current)
             # exchange of an earlier member: the first choice was made without the second
             challenger = ranked(trials, settings.margin, current.fit.chi2)[0]
             newest = challenger.candidates[-1].name
@@ -166,7 +165,7 @@ class Selection(Alone):
             more = screen(self.space, self.candidates, self.columns, other.fit, self.settings.seed, self.settings.draws, exclude=[other.name, *base])
             promising = [s for s in few_of_each(more.scores) if frozenset([other.name, s.name]) not in self.refits.fitted]
             promising = [s for s in promising if s.statistic >= HOPELESS * more.scores[0].statistic][:MOST_TRIALS]
-            pairs += self.race(f"fitting beside {other.name}", promising, [other.name], self.where_alone(other.name))
+            pairs += self.race(f"fitting beside {other.name}", promising, other)
         return pairs
 
     def widely_beside(self, trials: Sequence[Refit], before: float) -> list[Refit]:

@@ -9,7 +9,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.curvature import by_secants
-from discrepancy.inference.refit.joint import STILL, by_own_sensitivities, jointly, polish, still_promised, there, total_cost
+from discrepancy.inference.refit.joint import STILL, by_own_sensitivities, jointly, polish, stands_still, still_promised, there, total_cost
 from discrepancy.problem import Candidate, near
 from fmu_src.arrays import Floats
 
@@ -29,9 +29,9 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
     for _ in range(RENEWALS):
         renewed = by_own_sensitivities(space, fit, tuple(c.name for c in candidates))
         gain, fit = fit.chi2 - renewed.chi2, renewed
-        if gain < STILL:
+        if stands_still(gain, fit.chi2, fit.residual.size):
             break
-    if still_promised(fit) > UNSETTLED:
+    if not stands_still(still_promised(fit), fit.chi2, fit.residual.size, UNSETTLED):
         # Along a bent valley single steps get stuck.
         start = {p.name: fit.values[p.name] for p in fit.parameters}
         fit = min(fit, jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1), key=lambda f: f.chi2)
@@ -51,7 +51,7 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
         # Of two that are as good the one whose sensitivities are its own: nuisances have those of the base fit before.
         fit = found if found.chi2 < fit.chi2 + STILL else fit
         # Seen from where it began it may have looked better than it is.
-        if abs(found.chi2 - renewed.chi2) < STILL or before - fit.chi2 < STILL:
+        if stands_still(min(abs(found.chi2 - renewed.chi2), before - fit.chi2), fit.chi2, fit.residual.size):
             break
     with near(fit.values), space.predictions.anchored(fit.values):
         if fit is begin:

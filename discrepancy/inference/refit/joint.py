@@ -23,6 +23,8 @@ STILL = 2e-3
 ROUGHLY_STILL = 0.1
 # So does one that only says which of several starts is right, and from where to go on.
 ABOUT_STILL = 1.0
+# Of what is left beyond twice the noise a gain of this share moves nothing that is told: that widens the intervals by far more.
+LITTLE = 1e-5
 # Rounds of polishing a fit that is searched for, by the sensitivities that it has, and one that is reported.
 ROUGH_ROUNDS, ROUNDS = 4, 8
 # Of what a descent must still gain, what it gains at least from sensitivities that are taken anew; else it will not in the steps that it has.
@@ -50,6 +52,11 @@ def left_of(residual: Floats, jacobian: Floats) -> float:
     steps, *_ = np.linalg.lstsq(jacobian, residual, rcond=None)
     left = residual - jacobian @ steps
     return float(left @ left)
+
+
+def stands_still(gain: float, cost: float, samples: int, still: float = STILL) -> bool:
+    """Whether a fit that leaves the chi-square ``cost`` of so many ``samples`` stands still where it falls by ``gain``."""
+    return gain < max(still, LITTLE * (cost - 2.0 * samples))
 
 
 def may_reach(fit: Fit, least: float) -> bool:
@@ -89,7 +96,7 @@ def polish(space: Workspace, parameters: Sequence[Parameter], values: Mapping[st
         gain = cost - new
         if gain > 0:
             x, r, cost = trial, new_r, new
-        if gain < (STILL if fresh else 0.05):
+        if stands_still(gain, cost, r.size, STILL if fresh else 0.05):
             # done, unless frozen sensitivities left it above what the partly linear fit promised
             if fresh or rough or (cost < expected + 0.5 and cost < space.base.chi2):
                 break
@@ -156,7 +163,7 @@ def _walk(space: Workspace, parameters: Sequence[Parameter], start: Mapping[str,
             promised = float(2.0 * gradient @ move - move @ normal @ move)
             damping *= 0.4 if gain > 0.75 * promised else 3.0 if gain < 0.25 * promised else 1.0
             x, cost, r = trial, new, new_r
-        if gain < still:
+        if stands_still(gain, cost, r.size, still):
             if secants.exact:
                 converged = True
                 break
