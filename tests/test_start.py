@@ -27,15 +27,24 @@ def modules_after(arguments: list[str], **environment: str) -> tuple[set[str], f
     return set(names), float(seconds), done.stdout
 
 
+def at_once(arguments: list[str]) -> tuple[set[str], str]:
+    """(modules, text) of a command that takes less CPU time than ``SOON``, at least once in three: a shared core makes it longer, nothing shorter."""
+    for _ in range(3):
+        loaded, seconds, text = modules_after(arguments)
+        if seconds < SOON:
+            break
+    assert seconds < SOON
+    return loaded, text
+
+
 COMMANDS = sorted(next(a for a in parser()._actions if a.dest == "command").choices)
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
 def test_help_loads_nothing_heavy(command):
-    loaded, seconds, text = modules_after([*command.split(), "--help"])
+    loaded, text = at_once([*command.split(), "--help"])
     assert "usage: rvwear" in text
     assert not loaded & HEAVY
-    assert seconds < SOON
 
 
 def test_the_list_of_claims_loads_nothing_that_computes_or_draws():
@@ -46,10 +55,9 @@ def test_the_list_of_claims_loads_nothing_that_computes_or_draws():
 
 @pytest.mark.parametrize("shell, word", [("bash", "complete "), ("zsh", "compdef"), ("fish", "complete ")])
 def test_completion_prints_what_the_shell_sources(shell, word):
-    loaded, seconds, text = modules_after(["completion", shell])
+    loaded, text = at_once(["completion", shell])
     assert word in text and "rvwear" in text
     assert not loaded & HEAVY
-    assert seconds < SOON
 
 
 @pytest.mark.parametrize("line, offered", [
