@@ -16,7 +16,9 @@ const ROLE = ["runs", "number", "columns", "role"];
 export function show(root, context) {
   let data = null,
     choices = null,
-    taking = false;
+    taking = false,
+    // What was read last, and its text.
+    last = {};
   const faults = h("div"),
     numbers = h("div", { id: "numbers" }),
     body = h("div", {}, h("p", { class: "quiet" }, "Reading the files…"));
@@ -48,11 +50,15 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (found && choices) {
+    if (!found || !choices) return;
+    // Drawn anew, a button that is pressed just then would be another one, and do nothing.
+    const text = JSON.stringify(found);
+    if (!data || data !== last.data || text !== last.text) {
       data = found;
+      last = { data, text };
       draw();
-      arrive();
     }
+    arrive();
   }
 
   // What of the numbers cannot be, or hardly, stands open before all else; scales are held against a model, which takes some seconds.
