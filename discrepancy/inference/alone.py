@@ -170,7 +170,8 @@ class Alone:
     def race(self, what: str, scores: Sequence[Score], beside: Refit | None = None) -> list[Refit]:
         """Refits of each of ``scores``, ``beside`` the effects of a fit from where these stand; the first two say what the others must reach: what rough
         predictions err in those effects they do alike in all."""
-        names, own, before = ([], None, self.space.base.chi2) if beside is None else ([c.name for c in beside.candidates], beside.at, beside.fit.chi2)
+        names, own = ([c.name for c in beside.candidates], beside.at) if beside else ([], None)
+        before = beside.fit if beside else self.space.base
 
         def one(least: float, score: Score) -> Refit:
             return self.refits.fit([*names, score.name], own, [score], least)
@@ -179,7 +180,7 @@ class Alone:
         if len(scores) < 3:
             return ahead
         best = min(ahead, key=penalised)
-        least = self.near(best, before - best.fit.chi2) + penalised(best) - best.fit.chi2
+        least = self.near(best, before.chi2 - best.fit.chi2) + penalised(best) - best.fit.chi2
         return [*ahead, *self.tried(f"{what}, those further behind", partial(one, least), scores[2:])]
 
     def near(self, best: Refit, gained: float | None = None) -> float:

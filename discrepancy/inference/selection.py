@@ -83,7 +83,7 @@ class Selection(Alone):
         ``calibrations``: ``best`` and what calibrates as well, the effects of which do not count towards the most that are looked for.
         """
         settings, current = self.settings, best
-        calibrating = frozenset(name for fit in calibrations for name in fit.key)
+        calibrating = frozenset().union(*(fit.key for fit in calibrations))
         while len(current.key - calibrating) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)

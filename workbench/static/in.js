@@ -16,9 +16,7 @@ const ROLE = ["runs", "number", "columns", "role"];
 export function show(root, context) {
   let data = null,
     choices = null,
-    taking = false,
-    // What was read last, and its text.
-    last = {};
+    taking = false;
   const faults = h("div"),
     numbers = h("div", { id: "numbers" }),
     body = h("div", {}, h("p", { class: "quiet" }, "Reading the files…"));
@@ -50,15 +48,11 @@ export function show(root, context) {
     if (!data && context.state && !context.state.files) clear(body, empty());
     const [there, found] = await Promise.all([choices ?? context.act(get("in/choices"), faults), context.act(get("in"), faults)]);
     choices = there;
-    if (!found || !choices) return;
-    // Drawn anew, a button that is pressed just then would be another one, and do nothing.
-    const text = JSON.stringify(found);
-    if (!data || data !== last.data || text !== last.text) {
+    if (found && choices) {
       data = found;
-      last = { data, text };
       draw();
+      arrive();
     }
-    arrive();
   }
 
   // What of the numbers cannot be, or hardly, stands open before all else; scales are held against a model, which takes some seconds.
@@ -333,12 +327,7 @@ export function show(root, context) {
     );
 
   load();
-  let count = context.state?.files;
-  return {
-    update(state) {
-      if (taking) return;
-      if (count !== undefined && state.files !== count && data) load();
-      count = state.files;
-    },
-  };
+  // Files that the page took in or put aside itself are read by then: drawn anew, a button that is pressed just then would be another one, and do nothing.
+  const follow = () => (!taking && data && data.files.length !== context.state.files ? read() : null);
+  return { update: () => inTurn(follow) };
 }

@@ -15,7 +15,7 @@ def stream_of(record: Record) -> str:
 
 
 def position_of(record: Record) -> Floats:
-    """Time if given and rising, else the first axis that runs one way, else the sample's number."""
+    """Time if given and rising, else the first axis that runs one way (``SAMPLE`` of a loop that lacks some), else the sample's number."""
     axes = record.axes
     for name in ("time", "angle", *axes):
         if name in axes:
