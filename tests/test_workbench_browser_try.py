@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import time
 
 import pytest
 from browser import EXAMPLE, until
@@ -77,6 +78,24 @@ def test_a_search_under_try_opens_what_is_called_so_alone(bench):
     # The words about an effect are those of all its forms: these are listed below it.
     listed = page.locator("ul.list > li > details > summary").all_inner_texts()
     assert listed[0] == titles[0] and "first stage error (mesh)" in listed
+
+
+def test_a_model_is_made_ready_once_whatever_the_server_tells_meanwhile(bench):
+    """Its effects were drawn again when the second answer came: what was opened or pressed by then was gone."""
+    shutil.copytree(EXAMPLE, bench.folder, dirs_exist_ok=True)
+    page, asked = bench.page, []
+
+    def late(route):
+        asked.append(route.request.method)
+        (bench.folder / f"more_{len(asked)}.csv").write_text("angle;error\n0;0\n")
+        time.sleep(3.0)
+        route.continue_()
+
+    page.route("**/try", late)
+    bench.view("try")
+    page.locator("ul.list > li > details").first.wait_for()
+    page.wait_for_timeout(1000)
+    assert asked == ["POST"]
 
 
 def test_an_effect_that_is_opened_under_try_is_seen_to_its_end(bench):

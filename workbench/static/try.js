@@ -14,6 +14,8 @@ export function show(root, context) {
     keptName = "",
     moves = 0,
     busy = false,
+    // The model that is being made ready; the server tells of other things meanwhile.
+    readying = "",
     again = false,
     search = "",
     settle = 0,
@@ -61,7 +63,9 @@ export function show(root, context) {
     }
     clear(faults, h("p", { class: "quiet" }, "Making the model ready…"));
     const asked = model;
+    readying = asked;
     const found = await context.act(post("try", { model }), faults);
+    if (readying === asked) readying = "";
     // Who went on wants no curve of it, nor who has chosen another model meanwhile.
     if (!found || !root.isConnected || model !== asked) return;
     clear(faults);
@@ -338,7 +342,7 @@ export function show(root, context) {
   load();
   return {
     update(state) {
-      if (context.model() !== model || (!data && state.saved && !busy && model)) load();
+      if (context.model() !== model || (!data && state.saved && !readying && model)) load();
     },
     recolour: () => plot.later(),
     close: () => {
