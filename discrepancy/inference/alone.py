@@ -1,13 +1,14 @@
 """Which effects are fitted alone: what may win, and from where it is looked for."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
 from discrepancy.inference.base_fit.workspace import Workspace
-from discrepancy.inference.judgement import Judgement
+from discrepancy.inference.judgement import Judgement, borne_out
 from discrepancy.inference.outlook import IN_EARNEST, Outlook
 from discrepancy.inference.refit.bent import exchange, leaves_some
 from discrepancy.inference.refit.confusable import FORM, penalised, price
@@ -68,6 +69,17 @@ def close_behind(fits: Sequence[Refit], near: float, leaves: bool) -> tuple[list
     return [f for f in fits[1:] if id(f) in chosen], [f for f in fits[1:] if id(f) not in chosen]
 
 
+@dataclass(frozen=True)
+class Foremost:
+    """Rough fits of single effects, the best first, and this in earnest (``first``, alone in its list); whether it ``leaves`` something; ``rates`` of the
+    effects two amplitudes of which do nearly the same (see ``bent.exchange``)."""
+
+    fits: list[Refit] = field(default_factory=list)
+    first: list[Refit] = field(default_factory=list)
+    leaves: bool = False
+    rates: Mapping[str, float] = field(default_factory=dict)
+
+
 class Alone:
     """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
 
@@ -80,9 +92,13 @@ class Alone:
 
     def singles(self) -> list[Refit]:
         """Refits of the candidates that may win alone."""
+        return self.compared(self.foremost())
+
+    def foremost(self) -> Foremost:
+        """The candidates that may win alone, fitted roughly, and the best of them in earnest."""
         scores = [s for s in self.screening.scores if s.p_single < WORTHWHILE]
         if not scores:
-            return []
+            return Foremost()
         top = scores[0].statistic
         chosen = self.first_tried([s for s in scores if s.statistic >= 0.35 * top], top)
         for s in sorted(scores, key=lambda s: s.p_single)[:2]:
@@ -101,7 +117,22 @@ class Alone:
         fits = self.widely(fits, fits[:1], self.near(fits[0]))
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
-        leaves = self.judgement.leftover(first[0])[0]
+        return Foremost(fits, first, self.judgement.leftover(first[0])[0], rates)
+
+    def may_stand(self, found: Foremost, p: float) -> bool:
+        """Whether the best effect, or one that may be as good, can be named where the best score has this ``p``: unused runs that are to confirm it and do not
+        are known before the others are fitted in earnest."""
+        if not found.first or found.leaves or p < self.settings.sure_level:
+            return True
+        fits = [*found.first, *close_behind(found.fits, self.near(found.fits[0]), False)[0]]
+        judge = self.judgement.held_out(fits)
+        return any(borne_out(p, judge.judge(f), self.settings.sure_level, self.settings.screen_level) for f in fits)
+
+    def compared(self, found: Foremost) -> list[Refit]:
+        """The fits of single effects, those in earnest that may be as good as the best."""
+        fits, first, leaves, rates = found.fits, found.first, found.leaves, found.rates
+        if not first:
+            return fits
         if leaves:
             # What is dear to look for.
             more = self.tried("fitting alone, each run placed", lambda s: self.refits.placed(s.name), self.shown())

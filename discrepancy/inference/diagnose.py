@@ -81,8 +81,7 @@ class Diagnostician:
         if hasattr(self, "localisation"):
             return self.localisation
         self.space.fit_base()
-        self.localisation = self.judgement.localiser.test(self.space.base, self.settings.localise_level)
-        self.judgement.localisation = self.localisation
+        self.localisation = self.judgement.localisation = self.judgement.localiser.test(self.space.base, self.settings.localise_level)
         return self.localisation
 
     def screened(self, candidates: Sequence[Candidate] | None = None, beside: Refit | None = None) -> Screen:
@@ -149,8 +148,7 @@ class Diagnostician:
 
     def walk(self, first: Sequence[str], beyond: str = "") -> Diagnosis:
         """From the base fit to the verdict."""
-        settings = self.settings
-        local = self.prepare()
+        settings, local = self.settings, self.prepare()
         self.outlook.fitted(self.space.base)
         say(misfit_text(local))
         self.doing = "screening"
@@ -171,7 +169,10 @@ class Diagnostician:
         selection, judgement = self.selection, self.judgement
         self.doing = "fitting effects alone"
         if start is None and (by_candidate or by_place):
-            rivals = selection.singles()
+            foremost = selection.foremost()
+            if not (by_place or selection.may_stand(foremost, p_screen)):
+                return self.nothing_named(by_place, [*foremost.first, *foremost.fits[1:]], p_screen, p_local)
+            rivals = selection.compared(foremost)
         if not (by_candidate or (by_place and self.base_explains(rivals))):
             return self.nothing_named(by_place, rivals, p_screen, p_local)
         if start is None:
@@ -307,8 +308,8 @@ class Diagnostician:
         done = ["base fit"] + ([self.tested] if self.refits.scores else []) + ([f"{len(fits)} fits"] if fits else [])
         reason = f"stopped while {self.doing}; done: {', '.join(done)}"
         if fits:
-            is_final = fits[0].key in self.refits.final_fits
-            reason += f"; best so far: {fits[0].name}" + ("" if is_final else ", fitted roughly: its numbers may move by more than their intervals")
+            roughly = "" if fits[0].key in self.refits.final_fits else ", fitted roughly: its numbers may move by more than their intervals"
+            reason += f"; best so far: {fits[0].name}{roughly}"
         captured = 0.0
         text: dict[str, Any] = {}
         if fits:
@@ -323,9 +324,8 @@ class Diagnostician:
         predictions = self.space.predictions
         predictions.report(self.space.base.values)
         for fit in fits:
-            own = {p.name for p in fit.own}
             predictions.report(fit.fit.values)
-            predictions.report({k: v for k, v in fit.fit.values.items() if k not in own})
+            predictions.report({k: v for k, v in fit.fit.values.items() if k not in {p.name for p in fit.own}})
 
     @property
     def teller(self) -> Teller:
