@@ -250,6 +250,26 @@ def test_a_diagnosis_that_does_not_end_is_no_answer(tmp_path, monkeypatch):
     assert found["times"]["whole"] < 2.0
 
 
+def test_a_busy_machine_leaves_a_diagnosis_its_cpu_time(tmp_path, monkeypatch):
+    waits = 0.4
+
+    def answer(*_):
+        begun = time.process_time()
+        time.sleep(waits)  # as if other work had the core
+        while time.process_time() - begun < 0.1:
+            pass
+        return SimpleNamespace(in_si=lambda: {"verdict": "none", "effects": []})
+
+    monkeypatch.setattr(tool, "LONGEST", 0.2)
+    monkeypatch.setattr(tool, "load_campaign", lambda folder: None)
+    monkeypatch.setattr(tool, "model_of", lambda campaign: SimpleNamespace(reducer=SimpleNamespace(name="any")))
+    monkeypatch.setattr(tool, "PhysicalModel", lambda file, campaign: SimpleNamespace(bench=SimpleNamespace(), rough_bench=SimpleNamespace()))
+    monkeypatch.setattr(tool, "diagnose", answer)
+    assert tool.answer_of(tmp_path)["verdict"] == "none"
+    waits = 5.0
+    assert "no answer within" in tool.answer_of(tmp_path)["error"]
+
+
 def test_a_bench_shows_both_of_two_laws():
     rng = np.random.default_rng(0)
     task = Task(0, 0, "pair", ("slipping clock", "wrong gain"), 12.0, "bench")
