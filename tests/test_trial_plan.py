@@ -253,7 +253,7 @@ def test_a_diagnosis_that_does_not_end_is_no_answer(tmp_path, monkeypatch):
 def test_a_busy_machine_leaves_a_diagnosis_its_cpu_time(tmp_path, monkeypatch):
     waits = 0.4
 
-    def answer(*_):
+    def answer(*_, **__):
         begun = time.process_time()
         time.sleep(waits)  # as if other work had the core
         while time.process_time() - begun < 0.1:
