@@ -41,7 +41,7 @@ LIMIT = 60.0
 # What is timed -> its part of a diagnosis; the rest of the run is the verdict.
 STAGES = {
     (Workspace, "fit_base"): "base fit", (Diagnostician, "prepare"): "localisation", (Diagnostician, "screened"): "screening",
-    (Selection, "singles"): "refits", (Selection, "several"): "rivals",
+    (Selection, "foremost"): "refits", (Selection, "compared"): "refits", (Selection, "several"): "rivals",
 }  # fmt: skip
 
 
