@@ -109,7 +109,7 @@ def test_what_calibrates_as_well_with_other_effects_is_kept_for_the_next_to_tell
     for fit in (seat, both, play, wider, swapped):
         fit.gain = 8.9e6
     refits = SimpleNamespace(fitted={r.key: r for r in (seat, both, play, wider, swapped)})
-    selection = SimpleNamespace(refits=refits, settings=Settings(), several=lambda best: best)
+    selection = SimpleNamespace(refits=refits, settings=Settings(), several=lambda best: best, is_on_the_way=lambda fit: False)
     for name in ("as_good", "little_behind"):
         setattr(selection, name, getattr(Selection, name).__get__(selection))
     assert Selection.calibrations(selection, seat) == [seat, both]

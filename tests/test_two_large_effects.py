@@ -20,7 +20,7 @@ def fit(name, chi2, gain=0.0, part="plant"):
 
 
 def selection(**members):
-    return SimpleNamespace(settings=Settings(), tried=lambda what, function, items: [function(r) for r in items], **members)
+    return SimpleNamespace(settings=Settings(), tried=lambda what, function, items: [function(r) for r in items], **{"is_on_the_way": lambda fit: False, **members})
 
 
 @pytest.mark.parametrize("least", [1200.0, 1600.0], ids=["one leaves little", "all leave much"])

@@ -34,6 +34,8 @@ NEARLY = 0.9
 # Chi-square by which a fit is so far behind one that leaves no more than noise that none of another start stands beside that, nor with the roller cages
 # placed beside it (assumed).
 FAR = 100.0
+# Chi-square by sample of a calibration that leaves so much that what is next is told without its fit in earnest (assumed).
+VERY_MUCH = 100.0
 
 
 def few_of_each(scores: Sequence[Score]) -> list[Score]:
@@ -83,6 +85,9 @@ class Foremost:
 class Alone:
     """Chooses among ``candidates`` by their scores of ``screening``, fits them with ``refits`` and judges what they leave."""
 
+    # Whether what key figures call for is calibrated, before anything else is looked for.
+    calibrating = False
+
     def __init__(self, candidates: Sequence[Candidate], columns: Columns, screening: Screen, refits: Refits, judgement: Judgement, settings: Settings,
                  outlook: Outlook):  # fmt: skip
         self.candidates, self.columns, self.screening = candidates, columns, screening
@@ -114,6 +119,8 @@ class Alone:
         # Of a large effect much is left until it is fitted in earnest.
         if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
             fits = self.along_valleys(fits, rates)
+        if self.is_on_the_way(fits[0]):
+            return Foremost(fits, fits[:1], True)
         fits = self.widely(fits, fits[:1], self.near(fits[0]))
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
@@ -131,7 +138,7 @@ class Alone:
     def compared(self, found: Foremost) -> list[Refit]:
         """The fits of single effects, those in earnest that may be as good as the best."""
         fits, first, leaves, rates = found.fits, found.first, found.leaves, found.rates
-        if not first:
+        if not first or self.is_on_the_way(first[0]):
             return fits
         if leaves:
             # What is dear to look for.
@@ -152,6 +159,10 @@ class Alone:
         for fit in unfinished:
             self.refits.forget(fit)
         return sorted([*first, *others, *(f for f in behind if f not in unfinished)], key=penalised)
+
+    def is_on_the_way(self, fit: Refit) -> bool:
+        """Whether a calibration leaves so much beside which another way to fit it is little: others follow it, before that is worth what it takes."""
+        return self.calibrating and fit.fit.chi2 > VERY_MUCH * len(fit.fit.residual)
 
     def widely(self, fits: Sequence[Refit], chosen: Sequence[Refit], least: float = np.inf) -> list[Refit]:
         """``fits``, the ``chosen`` ones from other starts too, where they may come below the chi-square ``least``; the best first."""

@@ -113,8 +113,7 @@ class Diagnostician:
         if not (candidates := [c for c in self.candidates if effect_of(c.name) in first]):
             return [], []
         self.screened(candidates)
-        rivals = self.selection.singles()
-        return rivals, self.selection.calibrations(rivals[0]) if rivals else []
+        return self.selection.calibrated(lambda fit: self.screened(beside=fit))
 
     def run(self, first: Sequence[str] = (), beyond: str = "") -> Diagnosis:
         """The whole diagnosis; ``first`` are calibrated before others are looked for, ``beyond``: what is off unless they explain it.

@@ -1,8 +1,9 @@
 """Which effects are fitted together: further ones beside what is there already, and what each could be replaced by."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import combinations, product
 
 from discrepancy.inference.alone import FAR, ROUGH, Alone, explains_nearly, few_of_each
 from discrepancy.inference.judgement import Judgement
@@ -119,12 +120,38 @@ class Selection(Alone):
             current = self.backward(challenger, least)
             if len(current.candidates) <= len(names):
                 break
-        return current
+        # Calibrations on the way to others are fitted roughly.
+        return current if self.calibrating else self.refits.renewed(current)
+
+    def calibrated(self, screened: Callable[[Refit], Screen]) -> tuple[list[Refit], list[Refit]]:
+        """Rivals alone, and ``calibrations``; where these leave so much that an effect hides what calibrates, the one beside which one more may leave least
+        comes first (``screened``: all effects beside a fit)."""
+        self.calibrating = True
+        rivals = self.singles()
+        found = self.calibrations(rivals[0]) if rivals else []
+        if len(found) > 1 and self.is_on_the_way(found[0]):
+            found.sort(key=lambda fit: fit.fit.chi2 - max(s.statistic for s in screened(fit).scores))
+        return rivals, found
+
+    def begun_without(self, best: Refit) -> list[Refit]:
+        """The best fit of two calibrations, neither of which is what ``best`` begins with in any of its forms; springs that look alike alone do not beside
+        friction."""
+        forms: dict[str, list[Score]] = {}
+        for s in self.screening.scores:
+            if effect_of(s.name) != effect_of(best.candidates[0].name):
+                forms.setdefault(effect_of(s.name), []).append(s)
+        pairs = [self.refits.fit([a.name, b.name], self.where_alone(a.name)) for (a, *_), (b, *_) in combinations(forms.values(), 2)]
+        if not pairs:
+            return []
+        one, other = (forms[effect_of(c.name)] for c in min(pairs, key=penalised).candidates)
+        return [min((self.refits.fit([a.name, b.name], self.where_alone(a.name)) for a, b in product(one, other)), key=penalised)]
 
     def calibrations(self, first: Refit) -> list[Refit]:
         """What calibrates best, beginning with ``first``, and the fit of other effects that comes as near as laws do whose form is slightly off, if it differs
         by more than one: a seat with memory does what a spring and friction do.  Which it is the next effect tells; one in place of one is tried at the end."""
         best = self.several(first)
+        if self.is_on_the_way(best):
+            return [self.refits.seen(r) for r in [best, *self.begun_without(best)]]
         others = [r for r in self.refits.fitted.values() if not r.key > best.key and len(r.key ^ best.key) > 2 and r.fit.chi2 < self.as_good(best)]
         return [best, *sorted(others, key=penalised)[:1]]
 
@@ -132,6 +159,8 @@ class Selection(Alone):
         """The best of joint fits as it is reported; what the model cannot compute but roughly gives way to the next, and what is less ahead of the next
         than predictions in earnest move it is compared with that in earnest.  ``before``: see ``ranked``."""
         order = ranked(trials, self.settings.margin, before)
+        if self.is_on_the_way(order[0]):
+            return order[0]
         found: list[Refit] = []
         moved, holds = 0.0, False
         for trial in order[:MOST_IN_EARNEST]:
@@ -173,6 +202,8 @@ class Selection(Alone):
         if not (trials and leaves_much(trials)):
             return list(trials)
         foremost = sorted(trials, key=penalised)[:MOST_TRIALS]
+        if self.is_on_the_way(foremost[0]):
+            return list(trials)
         most = before - min(r.fit.chi2 for r in foremost)
         return self.widely(trials, [r for r in foremost if before - r.fit.chi2 > EXPLAINS * most])
 
