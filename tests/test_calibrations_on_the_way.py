@@ -9,8 +9,10 @@ from test_confusable import rival
 from test_members_give_way import joint
 
 from discrepancy.inference.alone import VERY_MUCH, Alone, Foremost
+from discrepancy.inference.refit import refit as refits
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.verdict import Settings
+from discrepancy.problem import Candidate, Parameter
 
 COUNT = 1000
 LITTLE, MUCH = 1.5 * COUNT, 20.0 * VERY_MUCH * COUNT
@@ -71,6 +73,28 @@ def test_the_calibration_is_taken_beside_which_one_more_effect_leaves_least(pair
     # No screening where what calibrates leaves little.
     good = fitted(SEAT, SPRING, chi2=LITTLE)
     assert Selection.calibrated(selection_of(good, pairs=pairs), lambda fit: pytest.fail("screened")) == ([SEAT], [good])
+
+
+def test_beside_the_newest_what_calibrated_alone_begins_with_its_other_shapes(monkeypatch):
+    """A seat with memory that slips at 10 N m, beside a hole off its place: alone it had taken what the hole does and slipped at 759, where it stayed."""
+    slips = Parameter("slips", "N.m", 20.0, 0.01, 5000.0, 20.0)
+    seat = Candidate("seat", "seat", (SEAT.own[0],), (slips,), shape_grid=({"slips": 8.0}, {"slips": 40.0}))
+    begun = []
+
+    def jointly(space, parameters, start, names):
+        begun.append(start)
+        return SimpleNamespace(chi2=100.0 if start["slips"] < 20.0 else 900.0, values=start, parameters=parameters, candidates=names)
+
+    monkeypatch.setattr(refits, "jointly", jointly)
+    monkeypatch.setattr(refits, "finished", lambda space, candidates, fit: SimpleNamespace(candidates=candidates, fit=fit))
+    fit = SimpleNamespace(chi2=500.0, values={"slips": 759.0, "hole": 4e-6}, parameters=(), candidates=())
+    found = refits.reshaped(None, SimpleNamespace(candidates=(seat,), fit=fit))
+    assert begun == [{"slips": 8.0, "hole": 4e-6}, {"slips": 40.0, "hole": 4e-6}]
+    assert found.fit.values["slips"] == 8.0
+    # One that is no better leaves it as it was.
+    fit.chi2 = 50.0
+    same = SimpleNamespace(candidates=(seat,), fit=fit)
+    assert refits.reshaped(None, same) is same
 
 
 @pytest.mark.parametrize(("p", "gains", "stands"), [(1e-4, {}, True), (0.01, {"best": 5.0}, False), (0.01, {"best": 7.0}, True), (0.01, {"other": 7.0}, True),

@@ -119,9 +119,9 @@ class Alone:
         # Of a large effect much is left until it is fitted in earnest.
         if fits[0].candidates[0].name in rates and leaves_some(fits[0].fit):
             fits = self.along_valleys(fits, rates)
+        fits = self.widely(fits, fits[:1], self.near(fits[0]))
         if self.is_on_the_way(fits[0]):
             return Foremost(fits, fits[:1], True)
-        fits = self.widely(fits, fits[:1], self.near(fits[0]))
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         return Foremost(fits, first, self.judgement.leftover(first[0])[0], rates)

@@ -20,7 +20,7 @@ from discrepancy.inference.refit.confusable import (
     unsettled,
 )
 from discrepancy.inference.refit.effect_fit import EXPLAINS
-from discrepancy.inference.refit.refit import Refit, drop_cost
+from discrepancy.inference.refit.refit import Refit, drop_cost, reshaped
 from discrepancy.inference.refit.refits import OF_GAIN, Refits
 from discrepancy.inference.screening.screen import Columns, Score, Screen, joint_gain, screen
 from discrepancy.inference.verdict import Settings
@@ -109,6 +109,9 @@ class Selection(Alone):
                         trials += self.widely_beside(self.begun_otherwise(current), current.fit.chi2)
             if current is best:
                 trials += [self.refits.fit([*(c.name for c in other.candidates), newest], other.at) for other in calibrations[1:]]
+                if calibrations and leaves_much(trials):
+                    first = min(trials, key=penalised)
+                    trials = [self.reshaped(first), *(r for r in trials if r is not first)]
             if current.fit.chi2 - min(r.fit.chi2 for r in trials) + FAR + self.refits.gained_in_earnest(current) < FAR_SHORT * least:
                 break
             challenger = self.in_earnest(trials, current.fit.chi2)
@@ -180,6 +183,13 @@ class Selection(Alone):
             if other.name not in (first, newest) and frozenset([other.name, newest]) not in self.refits.fitted
             and joint_gain(self.columns, self.space.base, other, self.scores[newest]) >= HOPELESS_EXCHANGE * gain
         ]  # fmt: skip
+
+    def reshaped(self, first: Refit) -> Refit:
+        """A joint fit beside calibrations, or a better one from other shapes of its effects, remembered in its place."""
+        if first.key not in self.refits.final_fits:
+            with self.space.predictions.roughly():
+                self.refits.fitted[first.key] = first = reshaped(self.space, first)
+        return first
 
     def all_placed(self, fit: Refit) -> bool:
         """Whether it is known of all records where they were taken; else that may be what a fit leaves."""
