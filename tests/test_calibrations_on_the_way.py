@@ -9,7 +9,7 @@ from test_confusable import rival
 from test_members_give_way import joint
 
 from discrepancy.inference.alone import VERY_MUCH, Alone, Foremost
-from discrepancy.inference.refit import refit as refits
+from discrepancy.inference.refit import refit as refitting
 from discrepancy.inference.selection import Selection
 from discrepancy.inference.verdict import Settings
 from discrepancy.problem import Candidate, Parameter
@@ -85,16 +85,16 @@ def test_beside_the_newest_what_calibrated_alone_begins_with_its_other_shapes(mo
         begun.append(start)
         return SimpleNamespace(chi2=100.0 if start["slips"] < 20.0 else 900.0, values=start, parameters=parameters, candidates=names)
 
-    monkeypatch.setattr(refits, "jointly", jointly)
-    monkeypatch.setattr(refits, "finished", lambda space, candidates, fit: SimpleNamespace(candidates=candidates, fit=fit))
+    monkeypatch.setattr(refitting, "jointly", jointly)
+    monkeypatch.setattr(refitting, "finished", lambda space, candidates, fit: SimpleNamespace(candidates=candidates, fit=fit))
     fit = SimpleNamespace(chi2=500.0, values={"slips": 759.0, "hole": 4e-6}, parameters=(), candidates=())
-    found = refits.reshaped(None, SimpleNamespace(candidates=(seat,), fit=fit))
+    found = refitting.reshaped(None, SimpleNamespace(candidates=(seat,), fit=fit))
     assert begun == [{"slips": 8.0, "hole": 4e-6}, {"slips": 40.0, "hole": 4e-6}]
     assert found.fit.values["slips"] == 8.0
     # One that is no better leaves it as it was.
     fit.chi2 = 50.0
     same = SimpleNamespace(candidates=(seat,), fit=fit)
-    assert refits.reshaped(None, same) is same
+    assert refitting.reshaped(None, same) is same
 
 
 @pytest.mark.parametrize(("p", "gains", "stands"), [(1e-4, {}, True), (0.01, {"best": 5.0}, False), (0.01, {"best": 7.0}, True), (0.01, {"other": 7.0}, True),

@@ -73,8 +73,8 @@ def close_behind(fits: Sequence[Refit], near: float, leaves: bool) -> tuple[list
 
 @dataclass(frozen=True)
 class Foremost:
-    """Rough fits of single effects, the best first, and this in earnest (``first``, alone in its list); whether it ``leaves`` something; ``rates`` of the
-    effects two amplitudes of which do nearly the same (see ``bent.exchange``)."""
+    """Rough fits of single effects, the best first, and this in earnest (``first``, alone in its list; none of a calibration on the way to others); whether
+    it ``leaves`` something; ``rates`` of the effects two amplitudes of which do nearly the same (see ``bent.exchange``)."""
 
     fits: list[Refit] = field(default_factory=list)
     first: list[Refit] = field(default_factory=list)
@@ -121,7 +121,7 @@ class Alone:
             fits = self.along_valleys(fits, rates)
         fits = self.widely(fits, fits[:1], self.near(fits[0]))
         if self.is_on_the_way(fits[0]):
-            return Foremost(fits, fits[:1], True)
+            return Foremost(fits)
         self.outlook.after(IN_EARNEST)
         first = self.tried("fitting in earnest", self.refits.renewed, fits[:1])
         return Foremost(fits, first, self.judgement.leftover(first[0])[0], rates)
@@ -138,7 +138,7 @@ class Alone:
     def compared(self, found: Foremost) -> list[Refit]:
         """The fits of single effects, those in earnest that may be as good as the best."""
         fits, first, leaves, rates = found.fits, found.first, found.leaves, found.rates
-        if not first or self.is_on_the_way(first[0]):
+        if not first:
             return fits
         if leaves:
             # What is dear to look for.

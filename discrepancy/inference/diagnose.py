@@ -323,8 +323,9 @@ class Diagnostician:
         predictions = self.space.predictions
         predictions.report(self.space.base.values)
         for fit in fits:
+            own = {p.name for p in fit.own}
             predictions.report(fit.fit.values)
-            predictions.report({k: v for k, v in fit.fit.values.items() if k not in {p.name for p in fit.own}})
+            predictions.report({k: v for k, v in fit.fit.values.items() if k not in own})
 
     @property
     def teller(self) -> Teller:

@@ -1,7 +1,7 @@
 """Which effects are fitted together: further ones beside what is there already, and what each could be replaced by."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from itertools import combinations, product
 
@@ -84,8 +84,8 @@ class Selection(Alone):
         ``calibrations``: ``best`` and what calibrates as well, the effects of which do not count towards the most that are looked for.
         """
         settings, current = self.settings, best
-        calibrating = frozenset().union(*(fit.key for fit in calibrations))
-        while len(current.key - calibrating) < settings.most_effects:
+        calibrated = frozenset().union(*(fit.key for fit in calibrations))
+        while len(current.key - calibrated) < settings.most_effects:
             names = [c.name for c in current.candidates]
             more = screen(self.space, self.candidates, self.columns, current.fit, settings.seed + len(names), settings.draws, exclude=names)
             promising = few_of_each([s for s in more.scores if s.p_adjusted < settings.second_level])[:MOST_TRIALS]
@@ -95,7 +95,7 @@ class Selection(Alone):
                 promising += self.thresholds(more, [*names, *(s.name for s in promising)])
             if not promising:
                 break
-            self.outlook.found(len(current.key - calibrating))
+            self.outlook.found(len(current.key - calibrated))
             trials = self.race(f"fitting beside {' + '.join(names)}", promising, current)
             # exchange of an earlier member: the first choice was made without the second
             challenger = ranked(trials, settings.margin, current.fit.chi2)[0]
@@ -143,11 +143,14 @@ class Selection(Alone):
         for s in self.screening.scores:
             if effect_of(s.name) != effect_of(best.candidates[0].name):
                 forms.setdefault(effect_of(s.name), []).append(s)
-        pairs = [self.refits.fit([a.name, b.name], self.where_alone(a.name)) for (a, *_), (b, *_) in combinations(forms.values(), 2)]
-        if not pairs:
+        if len(forms) < 2:
             return []
-        one, other = (forms[effect_of(c.name)] for c in min(pairs, key=penalised).candidates)
-        return [min((self.refits.fit([a.name, b.name], self.where_alone(a.name)) for a, b in product(one, other)), key=penalised)]
+
+        def best_of(pairs: Iterable[tuple[Score, Score]]) -> Refit:
+            return min((self.refits.fit([a.name, b.name], self.where_alone(a.name)) for a, b in pairs), key=penalised)
+
+        one, other = (forms[effect_of(c.name)] for c in best_of(combinations([first for first, *_ in forms.values()], 2)).candidates)
+        return [best_of(product(one, other))]
 
     def calibrations(self, first: Refit) -> list[Refit]:
         """What calibrates best, beginning with ``first``, and the fit of other effects that comes as near as laws do whose form is slightly off, if it differs
