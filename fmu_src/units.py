@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import tempfile
+import threading
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
@@ -30,6 +31,9 @@ OWN = ("kg.m",)
 # What pint made of its definitions: the files of its own cache in one that is checked.
 MARK = b"rvwear units 1\n"
 
+# Held while the registry is read, once in a process.
+READING = threading.Lock()
+
 
 class UnitError(ValueError):
     """A unit that cannot be read or does not fit."""
@@ -50,11 +54,18 @@ class BaseUnit:
         return self.factor / target.factor, (self.offset - target.offset) / target.factor
 
 
-@cache
 def registry() -> "pint.UnitRegistry[float]":
     """pint's units; half a second of reading, for those only who need them.
 
-    pint loads whatever lies in its cache: it is given a folder of its own, with what an earlier run kept there and is whole.
+    One for all threads: units of two registries cannot be held against each other.
+    """
+    with READING:
+        return read_registry()
+
+
+@cache
+def read_registry() -> "pint.UnitRegistry[float]":
+    """pint loads whatever lies in its cache: it is given a folder of its own, with what an earlier run kept there and is whole.
     """
     import pint
 

@@ -1,6 +1,8 @@
 """Units as people write them are the same wherever they are typed: reducer files, settings, options, campaigns."""
 
 import math
+import subprocess
+import sys
 
 import pytest
 
@@ -112,3 +114,18 @@ def test_screen_page_and_faults_have_one_unit_of_a_torque(tmp_path, capsys):
     assert "12 N m 5 N m7 N m" in printed.out and "N m" in printed.err
     for text in (printed.out, printed.err):
         assert not any(written in text for written in ("N.m", "N·m"))
+
+
+def test_threads_that_ask_at_once_have_one_registry():
+    """A page that was opened while the last one was still answered could not read its reducer: "Unit and Unit of different registries"."""
+    asked = """
+import sys, threading
+from fmu_src.units import parse, registry
+sys.setswitchinterval(1e-5)
+found = []
+threads = [threading.Thread(target=lambda unit=unit: found.append((registry(), parse(unit)))) for unit in ("N.m", "um", "rpm", "arcmin")]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+print(len(found), len({id(made) for made, _ in found}))
+"""
+    assert subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout.split() == ["4", "1"]
