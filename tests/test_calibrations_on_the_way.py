@@ -108,3 +108,23 @@ def test_what_unused_runs_do_not_confirm_is_known_before_rivals_are_fitted_in_ea
     assert Alone.may_stand(alone, Foremost([best, other, far], [best], False), p) is stands
     # What leaves something is looked at in any case.
     assert Alone.may_stand(alone, Foremost([best, other, far], [best], True), p)
+
+
+def test_the_newest_is_fitted_beside_each_spring_that_looked_alike_without_it():
+    """A profile beside a housing was taken for a warm disc beside the crank supports, which calibrated a little better before either was there."""
+    crank, profile, warm, race = (rival(name, 0.0) for name in ("spring.cranks", "profile", "warm", "race"))
+    calibration = fitted(crank, FRICTION, chi2=MUCH)
+    trials = [fitted(crank, FRICTION, race, chi2=0.9 * MUCH), fitted(crank, FRICTION, warm, chi2=0.1 * MUCH), fitted(crank, FRICTION, profile, chi2=0.2 * MUCH)]
+    alone = [fitted(r, chi2=2.0 * MUCH) for r in (crank, SPRING, HOUSING, SEAT)]
+    asked = []
+
+    def fit(names, start, scores=()):
+        asked.append(([*names, *scores], start))
+        return fitted(*(rival(name, 0.0, size=9.0) for name in names), chi2=MUCH)
+
+    selection = SimpleNamespace(refits=SimpleNamespace(fitted={r.key: r for r in alone}, fit=fit), scores={name: f"score of {name}" for name in ("warm", "profile")})
+    Selection.of_other_forms(selection, trials, calibration)
+    springs = ("spring.carrier", "spring.housing")
+    assert asked[:2] == [([spring, "friction.mesh"], {**calibration.at, f"{spring}_size": 1.0}) for spring in springs]
+    assert asked[2:] == [([spring, "friction.mesh", newest, f"score of {newest}"], {f"{spring}_size": 9.0, "friction.mesh_size": 9.0})
+                         for newest in ("warm", "profile") for spring in springs]  # fmt: skip

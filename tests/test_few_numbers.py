@@ -5,11 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from discrepancy.inference.base_fit.fit import fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.held_out import HeldOutJudge
 from discrepancy.inference.misfit.localise import Localiser
 from discrepancy.inference.refit.effect_fit import fit_effects
-from discrepancy.inference.refit.in_earnest import renew
+from discrepancy.inference.refit.in_earnest import in_earnest, renew
 from discrepancy.inference.refit.refit import finished, refit
 from discrepancy.inference.screening.screen import Block, Columns, Score, bounded_gain
 from discrepancy.inference.selection import Selection
@@ -37,8 +38,8 @@ def number(name, values, hours=None, replicate=1, noise=None, **factors):
     return Record(f"{name} {replicate}", "wear_depth", "m", name, replicate, values, axes, factors, held_out=held_out, stated_noise=noise)
 
 
-def test_a_reported_fit_has_come_to_the_end_of_a_bent_valley():
-    """Wear that runs in: a coefficient over four decades, and an excess that goes with its inverse."""
+def run_in():
+    """Workspace, effect and a rough fit of wear that runs in: a coefficient over four decades, and an excess that goes with its inverse."""
     def worn(record, values):
         t, level, tau = record.axes["hours"], values.get("level", 5.0), values.get("tau", 200.0)
         return 0.01 * level * (t + values.get("excess", 0.0) * tau * -np.expm1(-t / tau))
@@ -51,8 +52,32 @@ def test_a_reported_fit_has_come_to_the_end_of_a_bent_valley():
     space = Workspace(Numbers([run], worn, (Parameter("level", "1", 5.0, 0.02, 1e3, 5.0),), (excess,)))
     space.fit_base()
     assert space.base.chi2 > 100.0
-    found = renew(space, fit_effects(space, [excess], [{"excess": 2.0, "tau": 200.0}]), [excess])
-    assert found.chi2 < 0.5
+    return space, excess, fit_effects(space, [excess], [{"excess": 2.0, "tau": 200.0}])
+
+
+def test_a_reported_fit_has_come_to_the_end_of_a_bent_valley():
+    space, excess, rough = run_in()
+    assert renew(space, rough, [excess]).chi2 < 0.5
+
+
+def test_a_fit_in_earnest_that_will_not_be_as_good_as_another_is_left(monkeypatch):
+    """Of three effects on a base that is too rigid the second best took longer than the best, and stood still at twice its chi-square."""
+
+    def asked(least):
+        space, excess, _ = run_in()
+        halfway = space.base.values | {"excess": 4.0, "tau": 200.0}
+        parameters = (*space.model.nuisances, *excess.parameters)
+        begun = fit_of(parameters, halfway, space.residual(halfway), space.columns(parameters, halfway), ("run in",), False)
+        predicted, predict = [], Numbers.predict
+        with monkeypatch.context() as patch:
+            patch.setattr(Numbers, "predict", lambda model, values, which=None: predicted.append(values) or predict(model, values, which))
+            found, covariance = in_earnest(space, begun, [excess], least)
+        assert found.chi2 <= begun.chi2 and (covariance is None) is (least < 0.0)
+        return len(predicted), found.chi2
+
+    dear, left = asked(np.inf)
+    assert left < 0.5 and asked(1.0) == (dear, left)
+    assert asked(-1e6)[0] < 0.7 * dear
 
 
 def scores_of(statistics):

@@ -235,14 +235,14 @@ def test_what_is_placed_beside_an_effect_is_placed_anew_when_its_fit_has_moved_o
             return False
 
     # Each fit goes half of what is left of the way from where the cages were placed to 1; known to 0.2.
-    def fitted(space, fit, candidates):
+    def fitted(space, fit, candidates, least):
         return SimpleNamespace(chi2=1.0, values={"a": 0.5 * (placed[-1] + 1.0)}, parameters=candidate.parameters), np.array([[0.04]])
 
     monkeypatch.setattr("discrepancy.inference.refit.refits.in_earnest", fitted)
-    monkeypatch.setattr("discrepancy.inference.refit.refits.followed", lambda space, fit, candidates, covariance: fitted(space, fit, candidates))
+    monkeypatch.setattr("discrepancy.inference.refit.refits.followed", lambda space, fit, candidates, covariance, least: fitted(space, fit, candidates, least))
     monkeypatch.setattr("discrepancy.inference.refit.refits.finished", lambda space, chosen, fit, covariance: Refit(chosen, fit, 0.0, np.zeros(0), covariance))
     refits = Refits(SimpleNamespace(predictions=Settled(), model=None), [candidate])
-    monkeypatch.setattr(refits, "otherwise", lambda result: result)
+    monkeypatch.setattr(refits, "otherwise", lambda result, least: result)
     rough = SimpleNamespace(chi2=2.0, values={"a": 0.0}, parameters=candidate.parameters)
     refits.renewed(Refit((candidate,), rough, 0.0, np.zeros(0), np.zeros((1, 1))))
     # The third was fitted from nearer than it is known.

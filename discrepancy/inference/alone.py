@@ -242,7 +242,7 @@ class Alone:
         angles, to which that one went, it may gain as much."""
         seen = self.refits.seen(rival)
         least = self.as_good(best, gained) + self.refits.gained_elsewhere(best)
-        return self.refits.renewed(seen) if may_reach(seen.fit, least) else seen
+        return self.refits.renewed(seen, least) if may_reach(seen.fit, least) else seen
 
     def tried(self, what: str, function: Callable[[Named], Refit], items: Sequence[Named]) -> list[Refit]:
         """``function`` of every score or refit, told as it goes."""

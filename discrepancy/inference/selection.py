@@ -5,7 +5,9 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from itertools import combinations, product
 
-from discrepancy.inference.alone import FAR, ROUGH, Alone, explains_nearly, few_of_each
+import numpy as np
+
+from discrepancy.inference.alone import FAR, FOREMOST, ROUGH, Alone, explains_nearly, few_of_each
 from discrepancy.inference.judgement import Judgement
 from discrepancy.inference.outlook import Outlook
 from discrepancy.inference.refit.confusable import (
@@ -111,7 +113,7 @@ class Selection(Alone):
                 trials += [self.refits.fit([*(c.name for c in other.candidates), newest], other.at) for other in calibrations[1:]]
                 if calibrations and leaves_much(trials):
                     first = min(trials, key=penalised)
-                    trials = [self.reshaped(first), *(r for r in trials if r is not first)]
+                    trials = [self.reshaped(first), *(r for r in trials if r is not first), *self.of_other_forms(trials, best)]
             if current.fit.chi2 - min(r.fit.chi2 for r in trials) + FAR + self.refits.gained_in_earnest(current) < FAR_SHORT * least:
                 break
             challenger = self.in_earnest(trials, current.fit.chi2)
@@ -172,7 +174,8 @@ class Selection(Alone):
         for trial in order[:MOST_IN_EARNEST]:
             if holds and penalised(trial) - penalised(order[0]) > moved:
                 break
-            found += self.tried("fitting in earnest", self.refits.renewed, [trial])
+            least = min((self.as_good(r, before - r.fit.chi2) for r in found), default=np.inf)
+            found += self.tried("fitting in earnest", partial(self.refits.renewed, least=least), [trial])
             moved = max(moved, abs(trial.fit.chi2 - found[-1].fit.chi2))
             holds = holds or found[-1].fit.chi2 <= self.near(trial)
         return ranked(found, self.settings.margin, before)[0]
@@ -193,6 +196,15 @@ class Selection(Alone):
             with self.space.predictions.roughly():
                 self.refits.fitted[first.key] = first = reshaped(self.space, first)
         return first
+
+    def of_other_forms(self, trials: Sequence[Refit], calibration: Refit) -> list[Refit]:
+        """Joint fits of the two foremost newest effects of ``trials`` beside a ``calibration`` that begins with another form: which of the springs that look
+        alike yields, the newest hid before it was there."""
+        first, *others = (c.name for c in calibration.candidates)
+        alike = [r for r in fits_alone(self.refits) if effect_of(r.name) == effect_of(first) and r.name != first]
+        newest = list(dict.fromkeys(trial.candidates[-1].name for trial in sorted(trials, key=penalised)))[:FOREMOST]
+        pairs = [self.refits.fit([form.name, *others], {**calibration.at, **form.at}) for form in alike]
+        return [self.refits.fit([c.name for c in pair.candidates] + [name], pair.at, [self.scores[name]]) for name in newest for pair in pairs]
 
     def all_placed(self, fit: Refit) -> bool:
         """Whether it is known of all records where they were taken; else that may be what a fit leaves."""

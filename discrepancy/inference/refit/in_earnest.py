@@ -9,7 +9,7 @@ import numpy as np
 from discrepancy.inference.base_fit.fit import Box, Fit, fit_of
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.curvature import by_secants
-from discrepancy.inference.refit.joint import STILL, by_own_sensitivities, jointly, polish, stands_still, still_promised, there, total_cost
+from discrepancy.inference.refit.joint import STILL, by_own_sensitivities, jointly, may_reach, polish, stands_still, still_promised, there, total_cost
 from discrepancy.problem import Candidate, near
 from fmu_src.arrays import Floats
 
@@ -24,33 +24,36 @@ RENEWALS = 4
 HARDLY = 0.5
 
 
-def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> Fit:
-    """The same fit with sensitivities at its own values: for what is reported."""
+def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate], least: float = np.inf) -> Fit:
+    """The same fit with sensitivities at its own values: for what is reported.  Left where it will not come below the chi-square ``least``."""
     for _ in range(RENEWALS):
         renewed = by_own_sensitivities(space, fit, tuple(c.name for c in candidates))
         gain, fit = fit.chi2 - renewed.chi2, renewed
-        if stands_still(gain, fit.chi2, fit.residual.size):
+        if stands_still(gain, fit.chi2, fit.residual.size) or not may_reach(fit, least):
             break
-    if not stands_still(still_promised(fit), fit.chi2, fit.residual.size, UNSETTLED):
+    if may_reach(fit, least) and not stands_still(still_promised(fit), fit.chi2, fit.residual.size, UNSETTLED):
         # Along a bent valley single steps get stuck.
         start = {p.name: fit.values[p.name] for p in fit.parameters}
-        fit = min(fit, jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1), key=lambda f: f.chi2)
+        fit = min(fit, jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1, least), key=lambda f: f.chi2)
     return fit
 
 
-def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> tuple[Fit, Floats]:
-    """The fit as it is reported and the covariance (p, p) of its parameters.
+def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate], least: float = np.inf) -> tuple[Fit, Floats | None]:
+    """The fit as it is reported and the covariance (p, p) of its parameters; one that will not come below the chi-square ``least`` as it stands then, its
+    covariance that of its own sensitivities (none).
 
     Last steps go by sensitivities over a standard deviation: over kinks, at which those of a point stand still.
     """
     fit = begin = there(space, turned_back(space, fit, candidates))
     for _ in range(RENEWALS):
         with near(fit.values), space.predictions.anchored(fit.values):
-            renewed = renew(space, fit, candidates)
+            renewed = renew(space, fit, candidates, least)
         before, found = fit.chi2, there(space, renewed)
         # Of two that are as good the one whose sensitivities are its own: nuisances have those of the base fit before.
         fit = found if found.chi2 < fit.chi2 + STILL else fit
         # Seen from where it began it may have looked better than it is.
+        if not may_reach(renewed, least):
+            return fit, None
         if stands_still(min(abs(found.chi2 - renewed.chi2), before - fit.chi2), fit.chi2, fit.residual.size):
             break
     with near(fit.values), space.predictions.anchored(fit.values):
@@ -62,15 +65,15 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate]) -> t
     return min(fit, there(space, polished), key=lambda f: f.chi2), covariance
 
 
-def followed(space: Workspace, fit: Fit, candidates: Sequence[Candidate], covariance: Floats) -> tuple[Fit, Floats]:
+def followed(space: Workspace, fit: Fit, candidates: Sequence[Candidate], covariance: Floats, least: float = np.inf) -> tuple[Fit, Floats | None]:
     """A fit in earnest, and the covariance (p, p) of its parameters, after what is placed beside it was placed anew: by the sensitivities that it has
-    where it hardly moves."""
+    where it hardly moves; ``least``: see ``in_earnest``."""
     fit = there(space, fit)
     with near(fit.values), space.predictions.anchored(fit.values):
         polished = polish(space, fit.parameters, fit.values, fit.jacobian, fit.candidates, fit.converged, fit.chi2, fresh=True)
     moved = np.abs([polished.values[name] - fit.values[name] for name in fit.names])
     if np.any(moved > HARDLY * np.sqrt(np.diag(covariance))):
-        return in_earnest(space, polished, candidates)
+        return in_earnest(space, polished, candidates, least)
     return min(fit, there(space, polished), key=lambda f: f.chi2), covariance
 
 

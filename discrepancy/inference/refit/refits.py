@@ -184,41 +184,41 @@ class Refits:
         """The fit of the named effects as it is reported, wherever."""
         return self.renewed(self.widened(self.fit(names)))
 
-    def renewed(self, result: Refit) -> Refit:
-        """The refit with predictions and sensitivities as they are reported, remembered in place of the first."""
+    def renewed(self, result: Refit, least: float = np.inf) -> Refit:
+        """The refit with predictions and sensitivities as they are reported, remembered in place of the first; ``least``: see ``in_earnest``."""
         key = result.key
         if key in self.final_fits:
             return in_order(self.final_fits[key], result.candidates)
         roughly = result.fit.chi2
-        better, model, predictions = self.from_its_zero(key, result), self.space.model, self.space.predictions
+        better, model, predictions = self.from_its_zero(key, result, least), self.space.model, self.space.predictions
         if isinstance(model, Placing) and roughly - better.fit.chi2 > OF_GAIN * better.gain:
             # Far from where it ends it told little of the zeros.
             places = model.places(predictions.active(better.fit.values))
-            again = self.from_its_zero(key, better)
+            again = self.from_its_zero(key, better, least)
             if again.fit.chi2 < better.fit.chi2 - BETTER:
                 better = again
             else:
                 predictions.put(better.fit.values, places)
         for _ in range(MOST_MOVES):
-            before, better = better, self.otherwise(better)
+            before, better = better, self.otherwise(better, least)
             if better is before:
                 break
         self.gained[key] = max(roughly - better.fit.chi2, 0.0)
         self.fitted[key] = self.final_fits[key] = better
         return better
 
-    def from_its_zero(self, key: frozenset[str], result: Refit) -> Refit:
+    def from_its_zero(self, key: frozenset[str], result: Refit, least: float) -> Refit:
         """The refit in earnest, from the zeros of angles that its effects tell, with all that is placed beside them following it."""
         self.settled.pop(key, None)
         result = self.at_its_zero(result)
         if key not in self.settled:
             self.settle(key, result)
-        better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates))
+        better = finished(self.space, result.candidates, *in_earnest(self.space, result.fit, result.candidates, least))
         for _ in range(AGAIN):
             if not (self.space.predictions.unsettled(better.fit.values) or self.has_moved(key, better)):
                 break
             self.settle(key, better)
-            better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance))
+            better = finished(self.space, result.candidates, *followed(self.space, better.fit, result.candidates, better.covariance, least))
         return better
 
     def at_its_zero(self, result: Refit) -> Refit:
@@ -281,7 +281,7 @@ class Refits:
         there = [(values[name] - before[name], values[name] - at) for place in places for name, at in place.items() if name in values]
         return all(abs(off) < 0.5 * abs(to_other) for off, to_other in there)
 
-    def otherwise(self, result: Refit) -> Refit:
+    def otherwise(self, result: Refit, least: float) -> Refit:
         """The refit with what the model has placed at another place that looks alike, the first that is better, if something may be left of the misfit."""
         model, fit = self.space.model, result.fit
         if not isinstance(model, Placing) or fit.chi2 < LEFT * len(fit.residual):
@@ -299,7 +299,7 @@ class Refits:
         for values, places in others():
             start = replace(fit, values={**fit.values, **values})
             predictions.put(start.values, places)
-            other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates))
+            other = finished(self.space, result.candidates, *in_earnest(self.space, start, result.candidates, least))
             if other.fit.chi2 < fit.chi2 - BETTER:
                 return other
         predictions.put(fit.values, before)
