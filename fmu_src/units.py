@@ -65,8 +65,7 @@ def registry() -> "pint.UnitRegistry[float]":
 
 @cache
 def read_registry() -> "pint.UnitRegistry[float]":
-    """pint loads whatever lies in its cache: it is given a folder of its own, with what an earlier run kept there and is whole.
-    """
+    """pint loads whatever lies in its cache: it is given a folder of its own, with what an earlier run kept there and is whole."""
     import pint
 
     place = cache_folder("units") / pint.__version__

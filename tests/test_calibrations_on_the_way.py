@@ -128,3 +128,8 @@ def test_the_newest_is_fitted_beside_each_spring_that_looked_alike_without_it():
     assert asked[:2] == [([spring, "friction.mesh"], {**calibration.at, f"{spring}_size": 1.0}) for spring in springs]
     assert asked[2:] == [([spring, "friction.mesh", newest, f"score of {newest}"], {f"{spring}_size": 9.0, "friction.mesh_size": 9.0})
                          for newest in ("warm", "profile") for spring in springs]  # fmt: skip
+    # A spring that is the newest itself is not fitted beside itself.
+    asked.clear()
+    selection.scores = {"spring.housing": "score"}
+    Selection.of_other_forms(selection, [fitted(crank, FRICTION, HOUSING, chi2=MUCH)], calibration)
+    assert [names for names, _ in asked[2:]] == [["spring.carrier", "friction.mesh", "spring.housing", "score"]]

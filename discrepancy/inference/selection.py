@@ -204,7 +204,8 @@ class Selection(Alone):
         alike = [r for r in fits_alone(self.refits) if effect_of(r.name) == effect_of(first) and r.name != first]
         newest = list(dict.fromkeys(trial.candidates[-1].name for trial in sorted(trials, key=penalised)))[:FOREMOST]
         pairs = [self.refits.fit([form.name, *others], {**calibration.at, **form.at}) for form in alike]
-        return [self.refits.fit([c.name for c in pair.candidates] + [name], pair.at, [self.scores[name]]) for name in newest for pair in pairs]
+        apart = [(name, pair) for name, pair in product(newest, pairs) if name not in pair.key]
+        return [self.refits.fit([*(c.name for c in pair.candidates), name], pair.at, [self.scores[name]]) for name, pair in apart]
 
     def all_placed(self, fit: Refit) -> bool:
         """Whether it is known of all records where they were taken; else that may be what a fit leaves."""

@@ -29,9 +29,11 @@ def renew(space: Workspace, fit: Fit, candidates: Sequence[Candidate], least: fl
     for _ in range(RENEWALS):
         renewed = by_own_sensitivities(space, fit, tuple(c.name for c in candidates))
         gain, fit = fit.chi2 - renewed.chi2, renewed
-        if stands_still(gain, fit.chi2, fit.residual.size) or not may_reach(fit, least):
+        if not may_reach(fit, least):
+            return fit
+        if stands_still(gain, fit.chi2, fit.residual.size):
             break
-    if may_reach(fit, least) and not stands_still(still_promised(fit), fit.chi2, fit.residual.size, UNSETTLED):
+    if not stands_still(still_promised(fit), fit.chi2, fit.residual.size, UNSETTLED):
         # Along a bent valley single steps get stuck.
         start = {p.name: fit.values[p.name] for p in fit.parameters}
         fit = min(fit, jointly(space, fit.parameters, start, fit.candidates, LAST_STEPS, 1, least), key=lambda f: f.chi2)
@@ -51,9 +53,9 @@ def in_earnest(space: Workspace, fit: Fit, candidates: Sequence[Candidate], leas
         before, found = fit.chi2, there(space, renewed)
         # Of two that are as good the one whose sensitivities are its own: nuisances have those of the base fit before.
         fit = found if found.chi2 < fit.chi2 + STILL else fit
-        # Seen from where it began it may have looked better than it is.
         if not may_reach(renewed, least):
             return fit, None
+        # Seen from where it began it may have looked better than it is.
         if stands_still(min(abs(found.chi2 - renewed.chi2), before - fit.chi2), fit.chi2, fit.residual.size):
             break
     with near(fit.values), space.predictions.anchored(fit.values):
