@@ -16,7 +16,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from benchmarks.blind_trial.final import SEED as FINAL_SEED
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import Task, make
 from benchmarks.blind_trial.peers import peers_of
@@ -60,9 +59,9 @@ def main() -> int:
     from joblib import Parallel, delayed
 
     about = json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8"))
-    tasks = final_plan() if arguments.final else plan(about["campaigns"], about["seed"])
-    if about["seed"] != FINAL_SEED and arguments.final:
-        parser.error(f"{arguments.folder} is not the final trial's")
+    if about.get("final", False) != arguments.final:
+        parser.error(f"{arguments.folder} is {'' if about.get('final') else 'not '}a final trial's")
+    tasks = final_plan(about["seed"]) if arguments.final else plan(about["campaigns"], about["seed"])
     results, done = finished(arguments.folder), peers_in(arguments.folder)
     left = [t for t in tasks if t.number % arguments.every == 0 and t.number not in done and "truth" in results.get(t.number, {})]
     path = arguments.folder / BESIDE

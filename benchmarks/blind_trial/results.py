@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.blind_trial.criteria import CRITERIA
+from benchmarks.blind_trial.final import SEED
 from benchmarks.blind_trial.score import counted
 from benchmarks.blind_trial.words import ABOUT, BESIDE, EXPERIMENTS, PROPOSED, RANDOM, RESULTS, SEALS
 
@@ -42,11 +43,18 @@ def by_number(path: Path) -> dict[int, dict[str, Any]]:
 
 # What a final trial has done so far, with its seals, what peers said and what experiments were worth, for whoever goes on with it or judges it anew.
 PACKED = Path(__file__).parent / "final.json.xz"
+
+
+def packed(seed: int) -> Path:
+    """Where a final trial's results are kept: of the published one in PACKED, of the next one, which takes longer than a sitting, beside it."""
+    return PACKED if seed == SEED else PACKED.with_name(f"final_{seed}.json.xz")
+
+
 # Of that, what lies in lines by campaign.
 LINES = {"results": RESULTS, "beside": BESIDE, "experiments": EXPERIMENTS}
 
 
-def pack(folder: Path, place: Path = PACKED) -> None:
+def pack(folder: Path, place: Path) -> None:
     """Keeps a folder's results, seals and plan in one file."""
     content = {
         "about": json.loads((folder / ABOUT).read_text(encoding="utf-8")), "seals": (folder / SEALS).read_text(encoding="utf-8").splitlines(),
@@ -55,7 +63,7 @@ def pack(folder: Path, place: Path = PACKED) -> None:
     place.write_bytes(lzma.compress(json.dumps(content, sort_keys=True).encode(), preset=9))
 
 
-def unpack(folder: Path, place: Path = PACKED) -> None:
+def unpack(folder: Path, place: Path) -> None:
     """Lays the kept results into a folder that has none."""
     content = json.loads(lzma.decompress(place.read_bytes()))
     folder.mkdir(parents=True, exist_ok=True)

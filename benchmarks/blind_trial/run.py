@@ -1,6 +1,7 @@
 """The blind trial: makes campaigns, seals their truths, asks the tool, unseals and scores.
 
     python -m benchmarks.blind_trial.run --final                                                  # the one whose levels are fixed
+    python -m benchmarks.blind_trial.run --final --seed 20261226 --pack                           # the next one, kept as far as it is done
     python -m benchmarks.blind_trial.run --campaigns 1000 --folder /tmp/trial
     python -m benchmarks.blind_trial.run --folder /tmp/trial --scheduler tcp://10.0.0.1:8786      # a Dask cluster
     python -m benchmarks.blind_trial.run --folder /tmp/trial --publish                            # docs/blind_trial.md
@@ -25,7 +26,7 @@ from benchmarks.blind_trial.final import SEED as FINAL_SEED
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import CannotMake, Task, make
 from benchmarks.blind_trial.plan import SIZE_ODDS, plan
-from benchmarks.blind_trial.results import PACKED, end_line, finished, pack, resolved, unpack
+from benchmarks.blind_trial.results import end_line, finished, pack, packed, resolved, unpack
 from benchmarks.blind_trial.words import ABOUT, EXPERIMENTS, RESULTS, SEALS
 
 
@@ -144,7 +145,7 @@ def other_plan(about: Path, seed: int, final: bool) -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--campaigns", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=20261)
+    parser.add_argument("--seed", type=int, help="default 20261; with --final that of the published one, another one is the next final trial")
     parser.add_argument("--final", action="store_true", help="the final trial's plan, fixed in final.py")
     parser.add_argument("--folder", type=Path, help="where results go and are found again (default blind_trial_results/SEED)")
     parser.add_argument("--jobs", type=int, default=-1)
@@ -162,9 +163,11 @@ def main() -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     if arguments.final:
-        tasks, arguments.seed = final_plan(), FINAL_SEED
+        arguments.seed = arguments.seed or FINAL_SEED
+        tasks = final_plan(arguments.seed)
         arguments.campaigns = len(tasks)
     else:
+        arguments.seed = arguments.seed or 20261
         tasks = plan(arguments.campaigns, arguments.seed, {arguments.size: 1.0} if arguments.size else SIZE_ODDS)
     arguments.folder = arguments.folder or Path(f"blind_trial_results/{arguments.seed}")
     if arguments.kinds:
@@ -174,10 +177,11 @@ def main() -> int:
     if arguments.numbers:
         tasks = [t for t in tasks if t.number in arguments.numbers]
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    if arguments.final and len(tasks) == arguments.campaigns and PACKED.is_file() and not (arguments.folder / RESULTS).is_file():
-        unpack(arguments.folder)
+    place = packed(arguments.seed)
+    if arguments.final and len(tasks) == arguments.campaigns and place.is_file() and not (arguments.folder / RESULTS).is_file():
+        unpack(arguments.folder, place)
     if arguments.pack:
-        pack(arguments.folder)
+        pack(arguments.folder, place)
         return 0
     if arguments.publish:
         from benchmarks.blind_trial.publish import publish
