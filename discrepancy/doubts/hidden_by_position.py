@@ -7,7 +7,7 @@ from scipy.special import ndtri
 
 from discrepancy.campaign.unplaced import REMEDY
 from discrepancy.held_names import LOCKED_POSITION
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.diagnose import Diagnostician
 from discrepancy.inference.refit.refit import Refit
 from discrepancy.inference.screening.screen import Columns

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import projected
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic, limits
 from discrepancy.problem import Candidate, effect_of
@@ -58,13 +58,11 @@ def best_error(separation: float) -> float:
 
 def separations(space: Workspace, candidates: Sequence[Candidate], columns: Columns, strength: float = STRENGTH) -> list[Pair]:
     """Every ordered pair of effects that show at all, the hardest first; to first order in the amplitudes, shapes on their grids and between."""
-    projected = project_out(columns.values, space.base.jacobian, space.base.normal)
-    gram = columns.values.T @ projected
-    gram = 0.5 * (gram + gram.T)
+    gram = projected(columns.values, space.base.jacobian, space.base.normal).gram()
     sizes = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     # How large, in noise units, each column's parameter can become within its bounds, below and above.
     ranges = np.array([limits(p) for b in columns.blocks for p in candidates[b.candidate].amplitudes]).reshape(-1, 2) * sizes[:, None]
-    seen = sizes > SEEN * np.sqrt(np.maximum(np.sum(columns.values**2, axis=0), 1e-300))
+    seen = sizes > SEEN * np.sqrt(np.maximum(np.einsum("ij,ij->j", columns.values, columns.values), 1e-300))
     unit = gram / np.outer(sizes, sizes)
     own: dict[str, list[Block]] = {}
     for block in columns.blocks:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from discrepancy.inference.base_errors import UNLIKELY, base_errors
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.chance import chance
 from discrepancy.inference.chi_square import chi_text

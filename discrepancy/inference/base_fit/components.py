@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg.lapack import dpstrf
 
 from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.projection import Projected, in_parts
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.problem import ORDERS
 from fmu_src.arrays import Floats
@@ -20,17 +21,19 @@ Component = tuple[str, str]
 LONG = 200
 
 
-def component_grams(space: Workspace, columns: Floats) -> dict[Component, Floats]:
+def component_grams(space: Workspace, columns: Floats | Projected) -> dict[Component, Floats]:
     """Gram matrix of ``columns`` (N, m) in each part of the noise; their sum is the whole."""
     grams: dict[Component, Floats] = {}
     width = columns.shape[1]
     for i, rows in space.rows.items():
         whitener = space.noise.whiteners[i]
-        block = columns[rows]
         main = grams.setdefault((whitener.quantity, "main"), np.zeros((width, width)))
-        main += block.T @ block
-        if whitener.directions.shape[1]:
-            along = whitener.directions.T @ block
+        along = np.zeros((whitener.directions.shape[1], width))
+        for part in in_parts(rows):
+            block = columns[part]
+            main += block.T @ block
+            along += whitener.directions[part.start - rows.start : part.stop - rows.start].T @ block
+        if len(along):
             main -= along.T @ along
             for k, component in enumerate(whitener.components):
                 gram = grams.setdefault(component, np.zeros((width, width)))
@@ -97,10 +100,3 @@ def simulate(space: Workspace, grams: dict[Component, Floats], draws: int, rng: 
         inflation *= np.sqrt(factors.get(component, 1.0))
         scores += inflation[:, None] * (rng.standard_normal((draws, rank)) @ root.T)
     return scores
-
-
-def project_out(columns: Floats, jacobian: Floats, normal: Floats) -> Floats:
-    """``columns`` with the span of ``jacobian`` (with its priors, ``normal``) removed."""
-    if not jacobian.shape[1]:
-        return columns
-    return columns - jacobian @ (np.linalg.pinv(normal, hermitian=True) @ (jacobian.T @ columns))

@@ -8,7 +8,8 @@ what a fit leaves over.
 import numpy as np
 from scipy.special import fdtrc
 
-from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, mean_excess, project_out
+from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, mean_excess
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import modulations
 from discrepancy.inference.noise.series import stream_of

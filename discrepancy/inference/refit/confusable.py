@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.special import ndtr, stdtrit
 
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.refit.refit import Refit, is_untold
 from discrepancy.problem import BASE, CHAIN, Candidate, Parameter

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from fmu_src.arrays import Floats
 

@@ -13,8 +13,9 @@ from itertools import combinations
 
 import numpy as np
 
-from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, project_out, simulate
+from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, simulate
 from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.projection import project_out, projected, side_by_side, squares
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.tail import needed_for, tail
 from discrepancy.problem import Candidate, Parameter
@@ -84,7 +85,7 @@ def candidate_columns(space: Workspace, candidates: Sequence[Candidate], values:
             stacks.append(block)
             blocks.append(Block(k, shape, slice(width, width + block.shape[1]), signs, size))
             width += block.shape[1]
-    return Columns(np.hstack(stacks) if stacks else np.zeros((space.size, 0)), tuple(blocks))
+    return Columns(side_by_side(stacks, space.size), tuple(blocks))
 
 
 def _blocks(space: Workspace, candidate: Candidate, values: dict[str, float]) -> list[tuple[dict[str, float], Floats, tuple[int, ...], float]]:
@@ -195,8 +196,8 @@ def _alike(a: Floats, b: Floats) -> Floats:
     """Cosines of the columns of two blocks, one for two columns of nothing; zero where they were not seen at the same places."""
     if a.shape != b.shape:
         return np.zeros(a.shape[1])
-    na, nb = np.linalg.norm(a, axis=0), np.linalg.norm(b, axis=0)
-    found: Floats = np.where((na == 0) & (nb == 0), 1.0, np.sum(a * b, axis=0) / np.maximum(na * nb, 1e-300))
+    na, nb = np.sqrt(squares(a)), np.sqrt(squares(b))
+    found: Floats = np.where((na == 0) & (nb == 0), 1.0, np.einsum("ij,ij->j", a, b) / np.maximum(na * nb, 1e-300))
     return found
 
 
@@ -247,17 +248,14 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     if not columns.blocks:
         return Screen([], ())
     rng = np.random.default_rng(seed)
-    projected = project_out(columns.values, fit.jacobian, fit.normal)
-    before = np.sum(columns.values**2, axis=0)
-    # with priors the inverse covariance is I - J N^-1 J': applied once, not twice
-    gram = columns.values.T @ projected
-    gram = 0.5 * (gram + gram.T)
-    dead = np.diag(gram) < 1e-6 * np.maximum(before, 1e-300)
+    without_fitted = projected(columns.values, fit.jacobian, fit.normal)
+    gram = without_fitted.gram()
+    dead = np.diag(gram) < 1e-6 * np.maximum(squares(columns.values), 1e-300)
     gram[dead] = 0.0
     gram[:, dead] = 0.0
     score = columns.values.T @ fit.settled
     score[dead] = 0.0
-    grams = {c: np.where(dead[:, None] | dead[None, :], 0.0, g) for c, g in component_grams(space, projected).items()}
+    grams = {c: np.where(dead[:, None] | dead[None, :], 0.0, g) for c, g in component_grams(space, without_fitted).items()}
     prior = gram - sum(grams.values())
     if np.trace(prior) > 1e-6 * np.trace(gram):
         grams[("prior", "prior")] = prior

@@ -3,8 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
+from discrepancy.inference.base_fit.projection import side_by_side
 from discrepancy.inference.screening.screen import LEAST_REACH, Block, Columns, reach
 from discrepancy.problem import Candidate
 from fmu_src.arrays import Floats
@@ -21,6 +20,8 @@ def only_seen(candidates: Sequence[Candidate], columns: Columns, known: Mapping[
         else seen_of(c, [columns.values[:, b.columns] for b in columns.blocks if b.candidate == k])
         for k, c in enumerate(candidates)
     }  # fmt: skip
+    if all(map(all, kept.values())):
+        return list(candidates), columns
     stacks, blocks, width = [], [], 0
     for b in columns.blocks:
         own = columns.values[:, b.columns][:, kept[b.candidate]]
@@ -29,7 +30,7 @@ def only_seen(candidates: Sequence[Candidate], columns: Columns, known: Mapping[
         blocks.append(Block(b.candidate, b.shape, slice(width, width + own.shape[1]), signs, b.size))
         width += own.shape[1]
     reduced = [replace(c, amplitudes=tuple(p for p, seen in zip(c.amplitudes, kept[k]) if seen)) for k, c in enumerate(candidates)]
-    return reduced, Columns(np.hstack(stacks) if stacks else columns.values, tuple(blocks))
+    return reduced, Columns(side_by_side(stacks, len(columns.values)), tuple(blocks))
 
 
 def seen_of(candidate: Candidate, blocks: Sequence[Floats]) -> list[bool]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.base_fit.components import project_out
+from discrepancy.inference.base_fit.projection import project_out
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import SMALL, Block, Columns, cone_statistic, known_before, limits
 from discrepancy.problem import BASE, Candidate, Parameter
