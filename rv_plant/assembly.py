@@ -24,7 +24,7 @@ from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.effects import HOOKS
 from rv_plant.gear_stage import crank_turn_per_carrier_turn, crank_turn_per_shift
 from rv_plant.mesh import mesh_contacts
-from rv_plant.near_mesh import is_near, keep_place, near_contacts
+from rv_plant.near_mesh import is_held, is_near, keep_place, near_contacts
 from rv_plant.needle_bearing import roller_contacts
 from rv_plant.output_pins import has_output_pins, output_contacts
 from rv_plant.poses import crank_position, disc_offset, hole, lobe, seat
@@ -172,7 +172,7 @@ def add_soft_crank(r, disc, carrier, crank):
 @kernel
 def assemble(r, ideal_output, cage_angle, load_torque):
     """Residual (gradient of the potential) and tangent at r.z; fills all contact forces."""
-    keep_place(r)
+    keep_place(r, ideal_output)
     add_all(r, ideal_output, cage_angle, load_torque, False, True)
 
 
@@ -187,6 +187,15 @@ def assemble_beside(r, ideal_output, cage_angle, load_torque):
     """The same beside the last ``assemble`` of this position; disc and pins are carried on where that is near enough."""
     if is_near(r):
         add_all(r, ideal_output, cage_angle, load_torque, True, False)
+    else:
+        assemble(r, ideal_output, cage_angle, load_torque)
+
+
+@kernel
+def assemble_on(r, ideal_output, cage_angle, load_torque):
+    """The same for the first time, carried on from the equilibrium before where that holds."""
+    if is_held(r, ideal_output):
+        assemble_beside(r, ideal_output, cage_angle, load_torque)
     else:
         assemble(r, ideal_output, cage_angle, load_torque)
 

@@ -9,7 +9,7 @@ diagonal then leads to the next contact.
 
 from fmu_src.kernel import kernel
 from fmu_src.variables import Sizes, Variable, local, scratch, state
-from rv_plant.assembly import assemble, assemble_beside
+from rv_plant.assembly import assemble, assemble_beside, assemble_on
 from rv_plant.coordinates import coordinate_count, moving_count
 from rv_plant.line_search import between, narrowed
 from rv_plant.linear import cholesky_solve
@@ -138,7 +138,7 @@ def slope_along(r):
 @kernel
 def newton(r, ideal_output, cage_angle, load_torque, most):
     """Iterate r.z to equilibrium from where it stands, ``most`` times; True if the residual is met."""
-    assemble(r, ideal_output, cage_angle, load_torque)
+    assemble_on(r, ideal_output, cage_angle, load_torque)
     r.residual = relative_residual(r, load_torque)
     for _ in range(most):
         if r.residual <= r.tolerance:

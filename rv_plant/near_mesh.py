@@ -30,14 +30,32 @@ def variables(sizes: Sizes) -> list[Variable]:
         # k, k', k''; arms of the normal about disc and ring; curvature of the centre curve and its change by b; force; phase and its change by b.
         scratch("near_contact", (discs, pins, 15)), scratch("near_pin", (discs, pins), integer=True),
         scratch("near_count", (discs,), integer=True), scratch("near_z", (coordinate_count(sizes),)),
+        # Beside z, what the geometry there depends on: angle of the output, scale of the ring, its place as each disc sees it.
+        scratch("near_at", (2 + 2 * discs,)),
+        # 1: nothing else is changed from one equilibrium to the next, so that one may be carried on to another.
+        scratch("near_held", (1,), integer=True),
     ]
 
 
 @kernel
-def keep_place(r):
+def keep_place(r, ideal_output):
     """The geometry is known from here on for the present coordinates."""
     for i in range(r.near_z.shape[0]):
         r.near_z[i] = r.z[i]
+    r.near_at[0], r.near_at[1] = ideal_output, r.ring_scale
+    for d in range(r.ring_offset_x.shape[0]):
+        r.near_at[2 + 2 * d], r.near_at[3 + 2 * d] = r.ring_offset_x[d], r.ring_offset_y[d]
+
+
+@kernel
+def is_held(r, ideal_output):
+    """Whether what is known of the last equilibrium's geometry still holds: the same but for forces and coordinates."""
+    if r.near_held[0] == 0 or r.near_at[0] != ideal_output or r.near_at[1] != r.ring_scale:
+        return False
+    for d in range(r.ring_offset_x.shape[0]):
+        if r.near_at[2 + 2 * d] != r.ring_offset_x[d] or r.near_at[3 + 2 * d] != r.ring_offset_y[d]:
+            return False
+    return True
 
 
 @kernel

@@ -166,6 +166,7 @@ def torque_sweep(plants, torques, turning, places, similar, guessed):
     p = plants[0]
     # Iterations from beside the similar run and from where the way led, when each was last gone: far from a similar run it is no help.
     from_similar, from_way = 0.0, USUAL_ITERATIONS
+    p.near_held[0] = 0
     for i in range(torques.shape[0]):
         beside = guessed and from_similar <= from_way
         if beside:
@@ -175,6 +176,8 @@ def torque_sweep(plants, torques, turning, places, similar, guessed):
         status = step_plant(plants, 0.0, 1.0)
         if status != 0:
             return status
+        # The input stands and no surface wears: only the torque changes from here on.
+        p.near_held[0] = 1
         if beside:
             from_similar += REMEMBERED * (p.iterations - from_similar)
         else:
@@ -182,4 +185,5 @@ def torque_sweep(plants, torques, turning, places, similar, guessed):
         turning[i] = -p.transmission_error
         for k in range(places.shape[1]):
             places[i, k] = p.z[k]
+    p.near_held[0] = 0
     return 0
