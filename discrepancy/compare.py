@@ -14,7 +14,7 @@ from discrepancy.campaign.amount import readable
 from discrepancy.campaign.angle_doubts import angle_doubts
 from discrepancy.campaign.design import Design
 from discrepancy.campaign.doubts import order_of_rows
-from discrepancy.campaign.findings import Finding, missing_factors
+from discrepancy.campaign.findings import Finding, exchanges, missing_factors
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import VALUE
 from discrepancy.campaign.repetition_words import copied_words, what_is_done, words
@@ -225,9 +225,10 @@ def reducer_words(model: PhysicalModel) -> list[str]:
 
 
 def beforehand(model: PhysicalModel, figures: Sequence[KeyFigure], runs: Sequence[Mapping[str, Any]] = ()) -> list[str]:
-    """What is said before anything is fitted: another reducer, wrong angles, shuffled rows, samples and repetitions far off, a base that is too soft,
-    conditions that leave something out; ``runs``: with what the model makes of them, where it was held against them."""
-    angles = [found.sentence for found in (*angle_doubts(model.campaign), *order_of_rows(Design(model.campaign)))]
+    """What is said before anything is fitted: another reducer, wrong angles, shuffled rows, interchanged runs, samples and repetitions far off, a base
+    that is too soft, conditions that leave something out; ``runs``: with what the model makes of them, where it was held against them."""
+    design = Design(model.campaign)
+    angles = [found.sentence for found in (*angle_doubts(model.campaign), *order_of_rows(design), *exchanges(design))]
     samples = [f"{words_of(found, model.campaign)}; {REMEDY}" for found in outlying_samples(model.campaign.records)]
     repetitions = [outlier_text(found, model, runs) for found in model.outlying]
     return [*reducer_words(model), *angles, *samples, *repetitions, *too_soft(figures, model.bench), *incomplete(model.campaign)]

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from discrepancy.campaign.model import Campaign
 
 # Findings of numbers that cannot be, or hardly: they stand open above whatever is made of the numbers, all others are a list to be opened.
-OF_NUMBERS = ("implausible scale", "impossible torque", "outlying samples", "outlying repetition", "rows out of order", "loop against the torque",
-              "loop the wrong way round", "angle jumps", "time runs back")  # fmt: skip
+OF_NUMBERS = ("implausible scale", "impossible torque", "outlying samples", "outlying repetition", "interchanged runs", "rows out of order",
+              "loop against the torque", "loop the wrong way round", "angle jumps", "time runs back")  # fmt: skip
 # In place of a cell, the view where one goes first; static/to_cell.js knows it by this name.
 FIRST = "diagnose"
 

@@ -9,10 +9,11 @@ import numpy as np
 from discrepancy.campaign.design import FRICTION, PLAY, WEAR, Design, highest_order, turns, values_of, worst_gap
 from discrepancy.campaign.mending import OfColumn
 from discrepancy.campaign.quantities import QUANTITIES, VALUE, keys_for
-from discrepancy.campaign.repetition_words import copied_words, what_is_done, words
+from discrepancy.campaign.repetition_words import copied_words, interchanged_words, what_is_done, words
 from discrepancy.campaign.row_order import is_shuffled
 from discrepancy.campaign.sample_words import REMEDY, words_of
 from discrepancy.campaign.zeros import unused_means
+from discrepancy.interchanged import interchanged
 from discrepancy.outlying_samples import outlying_samples
 from discrepancy.problem import ERROR, ORDERS
 from discrepancy.repetitions import SERIES, outlying
@@ -246,6 +247,11 @@ def repetitions(design: Design) -> Iterator[Finding]:
         )  # fmt: skip
 
 
+def exchanges(design: Design) -> Iterator[Finding]:
+    for found in interchanged(design.campaign.records):
+        yield Finding(WARNING, "interchanged runs", *interchanged_words(found, design.campaign))
+
+
 def samples(design: Design) -> Iterator[Finding]:
     for found in outlying_samples(design.campaign.records):
         yield Finding(WARNING, "outlying samples", words_of(found, design.campaign), REMEDY)
@@ -288,4 +294,4 @@ def shows_less(design: Design) -> Iterator[Finding]:
     return chain(levels(design), coupled(design), angles(design), vibrations(design), zeros(design))
 
 
-SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, samples, copied, zeros, statements)
+SEARCHES = (unfilled, noise, missing_factors, held_out, levels, coupled, angles, vibrations, rows, repetitions, exchanges, samples, copied, zeros, statements)
