@@ -70,13 +70,14 @@ def test_wear_that_feeds_on_itself_is_found_from_where_it_does_not_run_away(soft
 
 
 def test_what_nuisances_may_bring_beside_wear_that_feeds_on_itself_is_not_given_up():
-    """With frozen sensitivities a fit stood at 134 where 81 was to be had, and what it had to reach was 90."""
+    """With frozen sensitivities a fit stood at 134 where 81 was to be had, and what it had to reach was 90; grease that ages stood at 176 below the base
+    fit where 292 was to be had, and was told to fit worse by 104."""
     doctor = Diagnostician(worn(0.5, 6.0, 1.0))
     doctor.prepare()
     frozen = Frozen(doctor.space, [SOFT], 0.0)
     base = doctor.space.base.chi2
-    frozen.least = base - 1.17 * (base - 0.3 * base)
+    frozen.least = base - 1.7 * (base - 0.3 * base)
     flat = np.eye(2), np.zeros(2)
     assert not frozen.hopeless(0.3 * base, *flat)
-    frozen.least = base - 1.3 * (base - 0.3 * base)
+    frozen.least = base - 2.1 * (base - 0.3 * base)
     assert frozen.hopeless(0.3 * base, *flat)
