@@ -54,10 +54,10 @@ class Case:
         self.acceptable = set(truth["acceptable"]) | set(self.effects)
         self.verdict: str = answer["verdict"]
         self.names = list(dict.fromkeys(effect_of(e["name"]) for e in answer["effects"]))
-        if self.verdict == BASE_OFF:
-            # A law that is a number of the reducer file is named by that as well as by the effect.
+        if self.verdict not in (NONE, CRASH):
+            # A law that is a number of the reducer file is named by that as well as by the effect, alone or beside another one.
             off = {e["name"] for e in answer.get("base_off", [])}
-            self.names += [law["effect"] for law in truth["laws"] if off & set(LAWS[law["law"]].numbers)]
+            self.names += [law["effect"] for law in truth["laws"] if off & set(LAWS[law["law"]].numbers) and law["effect"] not in self.names]
         more = [effect_of(n) for n in answer.get("confusable", [])]
         more += [effect_of(n) for names in answer.get("alternatives", {}).values() for n in names]
         self.set = list(dict.fromkeys(self.names + more)) if self.verdict != NONE else []
