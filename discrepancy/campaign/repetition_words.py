@@ -7,7 +7,6 @@ from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.quantities import QUANTITIES, VALUE
 from discrepancy.interchanged import Interchanged
 from discrepancy.repetitions import Outlying
-from discrepancy.scales import shown
 from fmu_src.units import conversion
 
 WORDS = {"span": "spans {}", "mean": "has a mean of {}", "departure": "departs by {} from the middle of all", "value": "is {}"}
@@ -37,7 +36,8 @@ def interchanged_words(found: Interchanged, campaign: Campaign) -> tuple[str, st
     """What two runs show that were interchanged, and what to do."""
     placed = [f"{run}{campaign.place(run, VALUE)} of {condition}" for run, condition in zip(found.runs, found.conditions)]
     either = f" (or else the other two, {' and '.join(found.or_else)})" if found.or_else else ""
-    before, after = (shown(v, found.unit, found.quantity) for v in (found.before, found.after))
+    usual = QUANTITIES[found.quantity].usual_unit
+    before, after = (f"{readable(conversion(found.unit, usual)[0] * v)}{'' if usual == '1' else f' {usual}'}" for v in (found.before, found.after))
     return (
         f"runs {' and '.join(placed)}{either} look interchanged: each repeats the other condition's run; they differ by {before} from their own"
         f" repetitions, exchanged by {after}",
