@@ -11,6 +11,7 @@ from rv_plant.equilibrium import relative_residual
 from rv_plant.geometry import centre_curve_curvature, curvature_and_slopes
 from rv_plant.near_mesh import EXACT, MISSED, NEAR, missed, way_from_place
 from rv_plant.plant import assemble_at_input
+from studies import coupled
 
 ANGLE, CAGE = 0.7, 0.2
 
@@ -99,3 +100,34 @@ def test_a_force_beside_a_known_one_is_that_of_the_law(exponent):
         assert force_beside(penetration, known, force, stiffness, exponent) == pytest.approx(expected, rel=1e-12, abs=0)
     assert force_beside(1e-7, 0.0, 0.0, stiffness, exponent) == contact_force(1e-7, stiffness, exponent)
     assert BESIDE < 0.05
+
+
+def held(records, torques, carried):
+    """Transmission error under ``torques`` with the input held, the geometry carried on from one to the next or reckoned anew."""
+    found, places = np.zeros(len(torques)), np.zeros((len(torques), records["z"].shape[1]))
+    if carried:
+        assert coupled.torque_sweep(records, torques, found, places, places, False) == 0
+        return -found
+    for k, torque in enumerate(torques):
+        records["load_torque"] = torque
+        assert plant.step(records, 0.0, 1.0) == 0
+        found[k] = records["transmission_error"][0]
+    return found
+
+
+@pytest.mark.parametrize(
+    "effects",
+    [{}, {"tilting_share_x": 0.5, "tilting_share_y": -0.3}, {"pin_seat_compliance": 2e-9}, {"thermal_expansion": 1e-5}, {"housing_compliance": 2e-8}],
+    ids=lambda e: ", ".join(e) or "none",
+)  # fmt: skip
+def test_a_loop_whose_geometry_is_carried_on_is_that_reckoned_anew(rv20e, effects):
+    """Small steps, of which several are carried on, and large ones; with what moves the ring by the torque, or all along."""
+    up = np.concatenate([np.linspace(2.0, 160.0, 120), [80.0, 20.0]])
+    torques = np.concatenate([up, -up])
+    found = []
+    for carried in (True, False):
+        records = records_of(rv20e.plant, load_torque=2.0, temperature=313.15, tolerance=1e-9, **imperfect(rv20e.plant, 5, 2e-6), **effects)
+        assert plant.initialise(records) == 0
+        records["input_speed"] = 0.0
+        found.append(held(records, torques, carried))
+    assert np.ptp(found[0]) > 1e-5 and found[0] == pytest.approx(found[1], abs=1e-12)
