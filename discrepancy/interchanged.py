@@ -7,7 +7,7 @@ second of another look as if they belonged together: such two are only taken for
 """
 
 from collections import defaultdict
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 
@@ -51,20 +51,29 @@ class Interchanged:
 
 def interchanged(records: Sequence[Record]) -> list[Interchanged]:
     """Of every two conditions the two runs that look most like it, if they do."""
-    signals: dict[Hashable, list[list[Record]]] = defaultdict(list)
+    signals: dict[Hashable, list[list[list[Record]]]] = defaultdict(list)
     for members in repetitions_of(records):
         first = members[0]
         whole = all(np.isfinite(r.values).all() for r in members)
         if len(members) > 1 and whole and len(first.values) >= LEAST and alike(members):
-            signals[first.quantity, tuple(sorted(first.tags.items())), first.mounting].append(members)
-    found = []
-    for groups in signals.values():
-        spectra = [np.array([np.fft.rfft(r.values) for r in members]) for members in groups]
-        for m, n in combinations(range(len(groups)), 2):
-            if groups[m][0].condition != groups[n][0].condition and alike([*groups[m], *groups[n]]):
-                rest = [s for g, s in zip(groups, spectra) if g is not groups[m] and g is not groups[n] and alike([groups[m][0], *g])]
-                found += of_two(groups[m], groups[n], spectra[m], spectra[n], rest)
-    return found
+            sampled = signals[first.quantity, tuple(sorted(first.tags.items())), first.mounting]
+            groups = next((groups for groups in sampled if alike([groups[0][0], *members])), None)
+            if groups is None:
+                sampled.append([members])
+            else:
+                groups.append(members)
+    return [found for sampled in signals.values() for groups in sampled for found in among(groups)]
+
+
+def among(groups: Sequence[Sequence[Record]]) -> Iterator[Interchanged]:
+    """The same of the repetitions of conditions that were sampled at the same places."""
+    if len(groups) < 2:
+        return
+    spectra = [np.array([np.fft.rfft(r.values) for r in members]) for members in groups]
+    for m, n in combinations(range(len(groups)), 2):
+        if groups[m][0].condition != groups[n][0].condition:
+            rest = [s for k, s in enumerate(spectra) if k not in (m, n)]
+            yield from of_two(groups[m], groups[n], spectra[m], spectra[n], rest)
 
 
 def alike(members: Sequence[Record]) -> bool:
@@ -82,9 +91,10 @@ def of_two(one: Sequence[Record], other: Sequence[Record], a: Spectra, b: Spectr
         # By their phases alone they would of another zero as well.
         out = squares(np.abs(a[i]) - np.abs(own), np.abs(b[k]) - np.abs(its)) > STANDS_OUT * noise
         out[:SLOWEST] = False
-        share = float(after[out].sum() / before[out].sum()) if out.any() else 1.0
-        if share < least and (one[i].replicate == other[k].replicate or max(len(a), len(b)) > 2 or elsewhere(rest, out) < LEFT * float(before[out].sum())):
-            least, best = share, (i, k, float(before[out].sum()), float(after[out].sum()))
+        was, left = float(before[out].sum()), float(after[out].sum())
+        told = one[i].replicate == other[k].replicate or max(len(a), len(b)) > 2 or elsewhere(rest, out) < LEFT * was
+        if left < least * was and told:
+            least, best = left / was, (i, k, was, left)
     if best is None:
         return []
     i, k, *sums = best

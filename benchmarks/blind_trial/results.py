@@ -43,15 +43,13 @@ def by_number(path: Path) -> dict[int, dict[str, Any]]:
 
 # What a final trial has done so far, with its seals, what peers said and what experiments were worth, for whoever goes on with it or judges it anew.
 PACKED = Path(__file__).parent / "final.json.xz"
+# Of that, what lies in lines by campaign.
+LINES = {"results": RESULTS, "beside": BESIDE, "experiments": EXPERIMENTS}
 
 
 def packed(seed: int) -> Path:
     """Where a final trial's results are kept: of the published one in PACKED, of the next one, which takes longer than a sitting, beside it."""
     return PACKED if seed == SEED else PACKED.with_name(f"final_{seed}.json.xz")
-
-
-# Of that, what lies in lines by campaign.
-LINES = {"results": RESULTS, "beside": BESIDE, "experiments": EXPERIMENTS}
 
 
 def pack(folder: Path, place: Path) -> None:

@@ -162,12 +162,12 @@ def main() -> int:
     # Workers of joblib share the cores; more threads in each would only wait.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ.setdefault("OMP_NUM_THREADS", "1")
+    if arguments.seed is None:
+        arguments.seed = FINAL_SEED if arguments.final else 20261
     if arguments.final:
-        arguments.seed = arguments.seed or FINAL_SEED
         tasks = final_plan(arguments.seed)
         arguments.campaigns = len(tasks)
     else:
-        arguments.seed = arguments.seed or 20261
         tasks = plan(arguments.campaigns, arguments.seed, {arguments.size: 1.0} if arguments.size else SIZE_ODDS)
     arguments.folder = arguments.folder or Path(f"blind_trial_results/{arguments.seed}")
     if arguments.kinds:

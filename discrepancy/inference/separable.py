@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
-from discrepancy.inference.base_fit.projection import projected
+from discrepancy.inference.base_fit.projection import projected, squares
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import Block, Columns, cone_statistic, limits
 from discrepancy.problem import Candidate, effect_of
@@ -62,7 +62,7 @@ def separations(space: Workspace, candidates: Sequence[Candidate], columns: Colu
     sizes = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     # How large, in noise units, each column's parameter can become within its bounds, below and above.
     ranges = np.array([limits(p) for b in columns.blocks for p in candidates[b.candidate].amplitudes]).reshape(-1, 2) * sizes[:, None]
-    seen = sizes > SEEN * np.sqrt(np.maximum(np.einsum("ij,ij->j", columns.values, columns.values), 1e-300))
+    seen = sizes > SEEN * np.sqrt(np.maximum(squares(columns.values), 1e-300))
     unit = gram / np.outer(sizes, sizes)
     own: dict[str, list[Block]] = {}
     for block in columns.blocks:

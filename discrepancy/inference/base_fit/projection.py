@@ -26,7 +26,7 @@ class Projected:
         return self.columns.shape
 
     def __getitem__(self, rows: slice) -> Floats:
-        return without(self.columns[rows], self.jacobian[rows], self.taken)
+        return np.asarray(self.columns[rows] - self.jacobian[rows] @ self.taken, np.float64)
 
     def gram(self) -> Floats:
         """Products (m, m) with the columns themselves: with priors the inverse covariance is I - J N^-1 J', applied once, not twice."""
@@ -36,16 +36,7 @@ class Projected:
 
 def projected(columns: Floats, jacobian: Floats, normal: Floats) -> Projected:
     """``columns`` with the span of ``jacobian`` (with its priors, ``normal``) removed."""
-    return Projected(columns, jacobian, taken_off(columns, jacobian, normal))
-
-
-def taken_off(columns: Floats, jacobian: Floats, normal: Floats) -> Floats:
-    found: Floats = np.linalg.pinv(normal, hermitian=True) @ (jacobian.T @ columns)
-    return found
-
-
-def without(columns: Floats, jacobian: Floats, taken: Floats) -> Floats:
-    return columns - jacobian @ taken if jacobian.shape[1] else columns
+    return Projected(columns, jacobian, np.linalg.pinv(normal, hermitian=True) @ (jacobian.T @ columns))
 
 
 def in_parts(rows: slice) -> Iterator[slice]:
@@ -54,18 +45,14 @@ def in_parts(rows: slice) -> Iterator[slice]:
 
 
 def project_out(columns: Floats, jacobian: Floats, normal: Floats) -> Floats:
-    """``columns`` with the span of ``jacobian`` (with its priors, ``normal``) removed."""
-    return without(columns, jacobian, taken_off(columns, jacobian, normal))
+    """The same of all rows at once."""
+    return projected(columns, jacobian, normal)[:]
 
 
 def side_by_side(blocks: Sequence[Floats], rows: int) -> Floats:
     """Blocks (rows, any) in one array, each column in one piece: blocks are taken out of it again and again."""
     found = np.empty((rows, sum(block.shape[1] for block in blocks)), order="F")
-    start = 0
-    for block in blocks:
-        found[:, start : start + block.shape[1]] = block
-        start += block.shape[1]
-    return found
+    return np.concatenate([np.empty((rows, 0)), *blocks], axis=1, out=found)
 
 
 def squares(columns: Floats) -> Floats:

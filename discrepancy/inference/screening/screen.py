@@ -15,7 +15,7 @@ import numpy as np
 
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, simulate
 from discrepancy.inference.base_fit.fit import Fit
-from discrepancy.inference.base_fit.projection import project_out, projected, side_by_side, squares
+from discrepancy.inference.base_fit.projection import projected, side_by_side, squares
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.tail import needed_for, tail
 from discrepancy.problem import Candidate, Parameter
@@ -307,17 +307,17 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
 def joint_gain(columns: Columns, fit: Fit, *scores: Score) -> float:
     """Gain in chi-square of several effects together, linear and without bounds, at the places where each fits best alone."""
     chosen = np.hstack([columns.values[:, columns.blocks[s.best_block].columns] for s in scores])
-    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    gram = projected(chosen, fit.jacobian, fit.normal).gram()
     score = chosen.T @ fit.settled
-    return float(score @ np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ score)
+    return float(score @ np.linalg.pinv(gram, rcond=1e-9, hermitian=True) @ score)
 
 
 def bounded_gain(columns: Columns, fit: Fit, score: Score, amplitudes: Sequence[Parameter]) -> tuple[float, Floats]:
     """Gain in chi-square of one effect alone, linear, with its amplitudes drawn into their bounds, and their sizes before."""
     chosen = columns.values[:, columns.blocks[score.best_block].columns]
-    gram = chosen.T @ project_out(chosen, fit.jacobian, fit.normal)
+    gram = projected(chosen, fit.jacobian, fit.normal).gram()
     slope = chosen.T @ fit.settled
-    free = np.linalg.pinv(0.5 * (gram + gram.T), rcond=1e-9, hermitian=True) @ slope
+    free = np.linalg.pinv(gram, rcond=1e-9, hermitian=True) @ slope
     inside = np.clip(free, [(p.lower - p.off) / p.scale for p in amplitudes], [(p.upper - p.off) / p.scale for p in amplitudes])
     return float(2.0 * inside @ slope - inside @ gram @ inside), free
 

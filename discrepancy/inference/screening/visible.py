@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.base_fit.projection import project_out
+from discrepancy.inference.base_fit.projection import project_out, squares
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.screen import SMALL, Block, Columns, cone_statistic, known_before, limits
 from discrepancy.problem import BASE, Candidate, Parameter
@@ -102,7 +102,7 @@ class _Place:
 def visible(space: Workspace, candidates: Sequence[Candidate], columns: Columns, needed: Mapping[str, float]) -> list[Visible]:
     """Every amplitude of every effect that shows at all; ``needed``: statistic from which each candidate is significant."""
     projected = project_out(columns.values, space.base.jacobian, space.base.normal)
-    projected[:, np.einsum("ij,ij->j", columns.values, projected) < LEFT * np.sum(columns.values**2, axis=0)] = 0.0
+    projected[:, np.einsum("ij,ij->j", columns.values, projected) < LEFT * squares(columns.values)] = 0.0
 
     def of_candidate(k: int) -> list[Visible]:
         blocks = [b for b in columns.blocks if b.candidate == k]
