@@ -22,6 +22,7 @@ from discrepancy.prediction.candidates import candidates
 from discrepancy.prediction.chain import Chain
 from discrepancy.prediction.conditions import LAG_SHARE, Values, angles_of, at_rest, distinct_conditions, identity
 from discrepancy.prediction.defined_samples import defined
+from discrepancy.prediction.even_angles import with_even_angles
 from discrepancy.prediction.fineness import Fineness
 from discrepancy.prediction.lags import Lags
 from discrepancy.prediction.lives import WHOLE_SWEEP
@@ -83,7 +84,7 @@ class PhysicalModel(PlacedBeside):
         shown = [r for r in campaign.records if r.quantity in PREDICTED]
         # Told by all that was measured, as a check of the campaign does.
         self.outlying = outlying(campaign.records)
-        self.records: list[Record] = with_left_out(marked([defined(r, campaign) for r in shown]), self.outlying)
+        self.records: list[Record] = with_left_out(with_even_angles(marked([defined(r, campaign) for r in shown])), self.outlying)
         self.unpredicted = sorted({r.quantity for r in campaign.records} - PREDICTED)
         present = model.values()
         self.bench = bench_of(model, present, fmus)
