@@ -58,7 +58,7 @@ def erring(records: Sequence[Record]) -> dict[str, Turning]:
         measured = [r for r in records if r.quantity == quantity]
         turnings = {r.name: turning for r in measured if (turning := turning_of(r)) is not None}
         followed, error = following([r for r in measured if r.name in turnings and r.fitted and np.isfinite(r.values).all()], turnings)
-        if followed + SURE * error < 1.0:
+        if SURE * error + max(followed, 0.0) < 1.0:
             found |= turnings
     return found
 
