@@ -242,7 +242,7 @@ def incomplete(campaign: Campaign) -> list[str]:
 def warnings_of(model: PhysicalModel, warnings: list[str]) -> list[str]:
     if model.unpredicted:
         warnings.append(f"no prediction for {', '.join(model.unpredicted)}: these runs are left out")
-    warnings += standing_notes(model.campaign)
+    warnings += standing_notes(model.campaign, model.records)
     warnings += ["; ".join(copied_words(model.campaign.copies))] if model.campaign.copies else []
     if not any(r.unused for r in model.records):
         warnings.append("no run is held out: nothing says how the model does on conditions that it has not seen")

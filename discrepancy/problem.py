@@ -79,6 +79,7 @@ class Record:
     ``of_positions``: measured at positions of the input over a turn of the cranks, of which it is the mean.
     ``closed``: a loop that was gone round before its first sample.
     ``left_out``: it stands out against most of its repetitions, and takes no part in what is fitted, judged or averaged.
+    ``angle_noise``: its angles were written with so much noise [rad], and are those of an even turning now.
     """
 
     name: str
@@ -100,6 +101,7 @@ class Record:
     closed: bool = False
     far_off: tuple[int, ...] = ()
     left_out: bool = False
+    angle_noise: float = 0.0
 
     @property
     def fitted(self) -> bool:

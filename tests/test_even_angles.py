@@ -1,7 +1,6 @@
 """Angles that an encoder wrote with noise, of a shaft that turned evenly, and samples that were taken unevenly."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,7 +19,7 @@ def shown(angle):
     return sum(size * np.sin(order * angle + 0.3) for order, size in ORDERS)
 
 
-def runs(taken, written, seed=1, noise=1e-6, count=2, quantity="transmission_error"):
+def runs(taken, written, seed=1, noise=1e-6, count=2):
     """Runs with samples ``taken`` off an even turning and angles ``written`` off it, in steps; noise as a low pass leaves it."""
     rng = np.random.default_rng(seed)
     found = []
@@ -28,7 +27,7 @@ def runs(taken, written, seed=1, noise=1e-6, count=2, quantity="transmission_err
         even = STEP * np.arange(SAMPLES)
         off = rng.standard_normal(SAMPLES)
         values = shown(even + taken * STEP * off) + lfilter([noise], [1.0, -1.2, 0.5], rng.standard_normal(SAMPLES))
-        found.append(Record(f"run {k}", quantity, "rad", "bench", k + 1, values, {"angle": even + written * STEP * off}, {}))
+        found.append(Record(f"run {k}", "transmission_error", "rad", "bench", k + 1, values, {"angle": even + written * STEP * off}, {}))
     return found
 
 
@@ -114,8 +113,7 @@ def test_slopes_are_those_of_the_signal_up_to_fast_orders():
 
 
 def test_what_was_made_even_is_said():
-    campaign = SimpleNamespace(records=runs(taken=0.0, written=0.15))
-    [(text, short)] = evened_texts(campaign).items()
+    [(text, short)] = evened_texts(with_even_angles(runs(taken=0.0, written=0.15))).items()
     assert text.startswith("transmission_error: the angles of 2 runs err by 0.018 deg from sample to sample")
     assert short == "transmission_error: angles of 2 runs made even"
-    assert evened_texts(SimpleNamespace(records=runs(taken=0.2, written=0.2))) == {}
+    assert evened_texts(with_even_angles(runs(taken=0.2, written=0.2))) == {}

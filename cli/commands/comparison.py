@@ -224,7 +224,7 @@ def tell(options: argparse.Namespace, answer: "Answer", **more: object) -> None:
         if options.json:
             json_text(answer.as_json() | more)
         else:
-            show_answer(answer, standing_notes(answer.model.campaign))
+            show_answer(answer, standing_notes(answer.model.campaign, answer.model.records))
 
 
 def tell_so_far(options: argparse.Namespace, stop: "AnswerSoFar", again: str = GOES_ON, **more: object) -> int:

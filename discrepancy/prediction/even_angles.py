@@ -7,7 +7,7 @@ that repeat each other tell which: what they differ by follows the slope times w
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import chain, combinations
 
 import numpy as np
 from scipy.signal import savgol_filter
@@ -48,7 +48,11 @@ class Turning:
 def with_even_angles(records: Sequence[Record]) -> list[Record]:
     """The records; those over angles that err from sample to sample at the angles of an even turning."""
     turnings = erring(records)
-    return [replace(r, axes={**r.axes, "angle": turnings[r.name].even}) if r.name in turnings else r for r in records]
+
+    def evened(record: Record, turning: Turning) -> Record:
+        return replace(record, axes={**record.axes, "angle": turning.even}, angle_noise=turning.noise)
+
+    return [evened(r, turnings[r.name]) if r.name in turnings else r for r in records]
 
 
 def erring(records: Sequence[Record]) -> dict[str, Turning]:
@@ -69,12 +73,12 @@ def turning_of(record: Record) -> Turning | None:
     if len(angle) < FEWEST or not np.isfinite(angle).all():
         return None
     numbers = np.linspace(-1.0, 1.0, len(angle))
-    evens = [np.polynomial.Polynomial.fit(numbers, angle, 1)(numbers)]
-    step = abs(evens[0][1] - evens[0][0])
-    if float(np.std(angle - evens[0])) <= EVEN * step:
+    line = np.polynomial.Polynomial.fit(numbers, angle, 1)(numbers)
+    step = abs(line[1] - line[0])
+    if float(np.std(angle - line)) <= EVEN * step:
         return None
-    evens += [savgol_filter(angle, window, 2, mode="interp") for window in WINDOWS if window < len(angle)]
-    for even in evens:
+    nearby = (savgol_filter(angle, window, 2, mode="interp") for window in WINDOWS if window < len(angle))
+    for even in chain([line], nearby):
         turning = Turning(even, angle - even)
         if goes_along(turning.off):
             # Noise beyond many steps is another order of the rows.
@@ -105,8 +109,10 @@ def following(records: Sequence[Record], turnings: dict[str, Turning]) -> tuple[
 def differences(records: Sequence[Record], turnings: dict[str, Turning]) -> Iterator[tuple[Floats, Floats, Floats]]:
     """Of each two runs that repeat each other what they differ by (m,), and what they would by the slope of one and of the other."""
     for members in repetitions_of(records):
-        for one, other in combinations(members, 2):
-            first, second = turnings[one.name], turnings[other.name]
+        shown = [bridged(r).values for r in members]
+        turned = [turnings[r.name] for r in members]
+        for one, other in combinations(zip(shown, turned, map(slope_of, shown, turned)), 2):
+            (value, first, slope), (beside, second, its_slope) = one, other
             steps = [np.diff(t.even).mean() for t in (first, second)]
             if steps[0] * steps[1] < 0.0:
                 continue
@@ -115,9 +121,7 @@ def differences(records: Sequence[Record], turnings: dict[str, Turning]) -> Iter
             if kept.sum() < FEWEST:
                 continue
             rows, apart = rows[kept], first.off[kept] - second.off[rows[kept]]
-            values = [bridged(r).values for r in (one, other)]
-            slopes = [slope_of(v, t) for v, t in zip(values, (first, second))]
-            yield values[0][kept] - values[1][rows], slopes[0][kept] * apart, slopes[1][rows] * apart
+            yield value[kept] - beside[rows], slope[kept] * apart, its_slope[rows] * apart
 
 
 def slope_of(values: Floats, turning: Turning) -> Floats:

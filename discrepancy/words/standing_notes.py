@@ -1,5 +1,6 @@
 """Notes that hold for a campaign whatever the model: whole where measurements are first held against one, in few words afterwards."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from discrepancy.campaign.model import Campaign
 from discrepancy.campaign.zeros import unused_means
 from discrepancy.prediction.defined_samples import FLOATING, defined_at
-from discrepancy.prediction.even_angles import erring
+from discrepancy.problem import Record
 
 # Where the whole of a short note stands.
 WHOLE = "`rvwear compare` says these whole"
@@ -31,25 +32,27 @@ def floating_text(floating: Mapping[str, int]) -> str:
             " begins it still hangs on what was before; a lost motion is read only where both ways of the loop have samples left")  # fmt: skip
 
 
-def evened_texts(campaign: Campaign) -> dict[str, str]:
-    """By quantity what of angles that err from sample to sample is said, each with its short form."""
-    turnings = erring(campaign.records)
+def evened_texts(records: Sequence[Record]) -> dict[str, str]:
+    """By quantity what of angles that were made even is said, each with its short form."""
+    noises: dict[str, list[float]] = defaultdict(list)
+    for record in records:
+        if record.angle_noise:
+            noises[record.quantity].append(record.angle_noise)
     found: dict[str, str] = {}
-    for quantity in dict.fromkeys(r.quantity for r in campaign.records if r.name in turnings):
-        runs = [turnings[r.name] for r in campaign.records if r.quantity == quantity and r.name in turnings]
-        count = f"{len(runs)} run{'s' * (len(runs) > 1)}"
-        noise = np.degrees(np.median([turning.noise for turning in runs]))
+    for quantity, every in noises.items():
+        count = f"{len(every)} run{'s' * (len(every) > 1)}"
+        noise = np.degrees(np.median(every))
         text = (f"{quantity}: the angles of {count} err by {noise:.2g} deg from sample to sample (runs that repeat each other agree at even angles and not"
                 " at those that are written); taken as those of an even turning")  # fmt: skip
         found[text] = f"{quantity}: angles of {count} made even"
     return found
 
 
-def standing_notes(campaign: Campaign) -> dict[str, str]:
-    """The notes, each with its short form."""
+def standing_notes(campaign: Campaign, records: Sequence[Record]) -> dict[str, str]:
+    """The notes, each with its short form; ``records`` are the campaign's as a model compares them."""
     floating = floating_of(campaign)
     notes = {floating_text(floating): f"{counted_samples(floating)} near no torque not compared"} if floating else {}
-    notes |= evened_texts(campaign)
+    notes |= evened_texts(records)
     return notes | {f"{text}; {remedy}": f"{text.partition(':')[0]}: means over a run not used" for text, remedy in unused_means(campaign.records)}
 
 
