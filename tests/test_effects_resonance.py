@@ -17,7 +17,7 @@ from discrepancy.problem import Record
 ORDERS = {1: (3.0, 0.3), 40: (1.0, 0.7), 78: (0.6, -1.1), 80: (2.0, 2.0), 121: (0.2, 0.4)}
 # Output 0.25 turns a second, so that order 80 is at 20 Hz.
 SPEED = 0.5 * math.pi
-VALUES = {"resonance_share": 1.0, "resonance_frequency": 22.0, "resonance_damping": 0.06}
+VALUES = {"resonance_share": 1.0, "resonance_frequency": 22.0, "resonance_damping": 0.06, "resonance_grounded": 0.0}
 
 
 def waves(angle, transfer=None):
@@ -37,7 +37,7 @@ def shown(angle, values=None, axis="angle", quantity="transmission_error", direc
 def expected(angle, direction=1.0, speed=SPEED, **parameters):
     v = {**VALUES, **parameters}
     turns = direction * speed / (2.0 * math.pi)
-    return waves(angle, transfer_of(v["resonance_share"], v["resonance_frequency"], v["resonance_damping"], turns))
+    return waves(angle, transfer_of(v["resonance_share"], v["resonance_frequency"], v["resonance_damping"], v["resonance_grounded"], turns))
 
 
 CAMPAIGN = """
@@ -96,19 +96,20 @@ def test_series_over_time_is_the_one_over_angle():
     assert shown(back, axis="time", direction=-1.0) == pytest.approx(expected(back, -1.0), abs=1e-9)
 
 
-def test_load_on_its_spring_moves_as_the_equation_of_motion_says():
-    """J y'' + d (y' - x') + k (y - x) = 0, integrated until it has settled."""
+@pytest.mark.parametrize("grounded", [0.0, 0.6, 1.0])
+def test_load_on_its_spring_moves_as_the_equation_of_motion_says(grounded):
+    """J y'' + d (y' - (1 - s) x') + k (y - x) = 0, integrated until it has settled."""
     frequency, damping = 2.0 * math.pi * VALUES["resonance_frequency"], VALUES["resonance_damping"]
 
     def motion(t, state):
         x, rate = waves(SPEED * t), (waves(SPEED * (t + 1e-6)) - waves(SPEED * (t - 1e-6))) / 2e-6
-        return [state[1], -frequency**2 * (state[0] - x) - 2.0 * damping * frequency * (state[1] - rate)]
+        return [state[1], -frequency**2 * (state[0] - x) - 2.0 * damping * frequency * (state[1] - (1.0 - grounded) * rate)]
 
     # Settled after 1.5 s: exp(-0.06 138 1.5) = 4e-6; what repeats then is compared.
     settled = 1.5
     time = settled + np.linspace(0.0, 0.3, 40)
     found = solve_ivp(motion, (0.0, time[-1]), [0.5, 0.0], t_eval=time, rtol=1e-8, atol=1e-9).y[0]
-    assert expected(SPEED * time) == pytest.approx(found, abs=2e-4)
+    assert expected(SPEED * time, resonance_grounded=grounded) == pytest.approx(found, abs=2e-4)
 
 
 def test_speed_says_which_order_is_lifted():
@@ -141,8 +142,8 @@ def test_model_of_a_campaign_looks_for_it_at_several_frequencies(tmp_path):
         (tmp_path / f"{name}.csv").write_text("angle,te\n" + rows + "\n", encoding="utf-8")
     model = PhysicalModel(load_model("RV20E-121-rigid"), load_campaign(tmp_path))
     candidate = next(c for c in model.candidates if c.name == "torsional_resonance")
-    assert [p.name for p in candidate.parameters] == ["resonance_share", "resonance_frequency", "resonance_damping"]
-    assert len(candidate.shape_grid) == 8 and set(candidate.shape_grid[0]) == {"resonance_frequency", "resonance_damping"}
+    assert [p.name for p in candidate.parameters] == ["resonance_share", "resonance_frequency", "resonance_damping", "resonance_grounded"]
+    assert len(candidate.shape_grid) == 8 and set(candidate.shape_grid[0]) == {"resonance_frequency", "resonance_damping", "resonance_grounded"}
     plain, found = (model.predict(v) for v in ({}, {"resonance_share": 1.0, "resonance_frequency": 14.0}))
     for record, a, b in zip(model.records, plain, found):
         r = 80 * record.factors["speed"] / 121.0 / (2.0 * math.pi) / 14.0

@@ -1,11 +1,12 @@
 """Torsional resonance of rig or load: a flywheel behind the coupling follows the output as a spring lets it.
 
-    y = x + g (H - 1) x at every order k,  H = (1 + 2 i z r)/(1 - r^2 + 2 i z r),  r = k n/f_0
+    y = x + g (H - 1) x at every order k,  H = (1 + 2 i (1 - s) z r)/(1 - r^2 + 2 i z r),  r = k n/f_0
 
 x is the transmission error of the reducer, y what the encoder sees, n the output's turns a second, f_0 and z frequency and
-damping ratio; g = 1 where the encoder turns with the load, less where it sits before the soft part.  Orders well below
-f_0/n pass, those near it are lifted up to 1/(2 z) times and delayed, those above it vanish (g = 1).  Only other speeds
-tell it from an error of a part, which stays at its order.
+damping ratio, of which the share s stands to the ground (bearings and seals of the load) and the rest in the soft part;
+g = 1 where the encoder turns with the load, less where it sits before the soft part.  Orders well below f_0/n pass, those
+near it are lifted up to 1/(2 z) times and delayed, those above it vanish (g = 1), sooner where damping stands to the
+ground.  Only other speeds tell it from an error of a part, which stays at its order.
 
 A series over whole turns in even steps is taken apart by Fourier's transform, any other by least squares over the whole
 orders of the output, or where samples lie densely put into even steps by a spline.  What this does not hold passes
@@ -27,7 +28,7 @@ from fmu_src.effect import Effect, amplitude, shape
 
 PER = "campaign"
 EFFECT = Effect(
-    0, "torsional resonance of rig or load", "y = x + g (H - 1) x, H = (1 + 2 i z r)/(1 - r^2 + 2 i z r), r = k n/f_0",
+    0, "torsional resonance of rig or load", "y = x + g (H - 1) x, H = (1 + 2 i (1 - s) z r)/(1 - r^2 + 2 i z r), r = k n/f_0",
     "base excitation of a damped oscillator, Den Hartog 1956; 10 to 100 Hz, damping ratio 0.01 to 0.1",
     "orders of the transmission error near one frequency are lifted and delayed, other ones at another speed; orders far above it are missing",
     (
@@ -35,6 +36,7 @@ EFFECT = Effect(
         shape("resonance_frequency", "Hz", "f_0: frequency of load on spring", 30.0, 0.5, 5000.0, "assumed: 10 to 100 Hz",
               grid=(6.0, 9.0, 13.0, 19.0, 28.0, 42.0, 63.0, 95.0)),
         shape("resonance_damping", "1", "z: its damping ratio", 0.05, 1e-3, 2.0, "assumed: 0.01 to 0.1", grid=(0.05,)),
+        shape("resonance_grounded", "1", "s: share of the damping that stands to the ground", 0.0, 0.0, 1.0, "assumed: none", grid=(0.0,)),
     ),
     signals=("transmission_error",),
     # At one speed any order may be off by anything: it is by following a frequency that a resonance shows.
@@ -52,13 +54,13 @@ Complex = npt.NDArray[np.complex128]
 Transfer = Callable[[Floats], Complex]
 
 
-def transfer_of(share: float, frequency: float, damping: float, turns_a_second: float) -> Transfer:
+def transfer_of(share: float, frequency: float, damping: float, grounded: float, turns_a_second: float) -> Transfer:
     """What an order of the output is multiplied by; ``turns_a_second`` with the sense of turning."""
 
     def transfer(order: Floats) -> Complex:
         r = order * turns_a_second / frequency
         damped = 2j * damping * r
-        return np.asarray(1.0 + share * ((1.0 + damped) / (1.0 - r * r + damped) - 1.0), np.complex128)
+        return np.asarray(1.0 + share * ((1.0 + (1.0 - grounded) * damped) / (1.0 - r * r + damped) - 1.0), np.complex128)
 
     return transfer
 
@@ -71,7 +73,8 @@ def change(values: Floats, record: Record, at: Callable[[str], float], size: flo
     speed = at("output_speed") * record.factors.get("direction", 1.0)
     axis = np.asarray(record.axes[name], np.float64)
     angle = axis if name == "angle" else speed * (axis - axis[0])
-    return filtered(values, angle, transfer_of(share, at("resonance_frequency"), at("resonance_damping"), speed / (2.0 * math.pi)))
+    shape_of = at("resonance_frequency"), at("resonance_damping"), at("resonance_grounded")
+    return filtered(values, angle, transfer_of(share, *shape_of, speed / (2.0 * math.pi)))
 
 
 def filtered(values: Floats, angle: Floats, transfer: Transfer) -> Floats:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from discrepancy.inference.base_fit.squares import usual_chance
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.held_out.consistency import lack_of_fit
 from discrepancy.inference.held_out.held_out import WITHIN_NOISE, HeldOut, HeldOutJudge
@@ -100,7 +101,7 @@ class Judgement:
 
     def leftover(self, result: Refit) -> tuple[bool, float, dict[str, Any], float]:
         """Whether ``result`` leaves a significant misfit, its size, what it is, and its inflation."""
-        local = self.localiser.test(result.fit, self.level)
+        local = self.localiser.test(result.fit, self.level, likely=usual_chance)
         shape = lack_of_fit(self.space, result)
         worst: dict[str, float] = {}
         inflation = 1.0

@@ -5,6 +5,7 @@ known from thousands of samples, its offset from run to run only from the few re
 """
 
 from collections import defaultdict
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.linalg.lapack import dpstrf
@@ -41,7 +42,7 @@ def component_grams(space: Workspace, columns: Floats | Projected) -> dict[Compo
     return grams
 
 
-def effective_dof(space: Workspace, shares: dict[Component, float]) -> float:
+def effective_dof(space: Workspace, shares: Mapping[Component, float]) -> float:
     """Satterthwaite's degrees of freedom of a variance made of parts with these shares."""
     total = sum(max(s, 0.0) for s in shares.values())
     if total <= 0:
@@ -73,7 +74,7 @@ def excess(space: Workspace, fit: Fit) -> dict[Component, float]:
     return {key: max(1.0, squares[key] / count) for key, count in counts.items() if count >= LONG}
 
 
-def mean_excess(factors: dict[Component, float], shares: dict[Component, float]) -> float:
+def mean_excess(factors: Mapping[Component, float], shares: Mapping[Component, float]) -> float:
     """The factor for a test whose noise has these shares."""
     total = sum(max(s, 0.0) for s in shares.values())
     return sum(max(s, 0.0) * factors.get(c, 1.0) for c, s in shares.items()) / total if total > 0.0 else 1.0

@@ -6,10 +6,10 @@ what a fit leaves over.
 """
 
 import numpy as np
-from scipy.special import fdtrc
 
-from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, mean_excess
+from discrepancy.inference.base_fit.components import component_grams, excess
 from discrepancy.inference.base_fit.projection import project_out
+from discrepancy.inference.base_fit.squares import usual_chance
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import modulations
 from discrepancy.inference.noise.series import stream_of
@@ -68,9 +68,7 @@ def lack_of_fit(space: Workspace, result: Refit) -> dict[str, tuple[float, int, 
         if not keep.any():
             continue
         root = vectors[:, keep] / np.sqrt(values[keep]) / size[:, None]
-        statistic = float(np.sum((root.T @ (stacked[:, alive].T @ settled)) ** 2))
-        width = root.shape[1]
-        shares = {c: float(np.trace(g)) for c, g in component_grams(space, projected[:, alive] @ root).items()}
-        statistic /= mean_excess(factors, shares)
-        outcome[name] = (statistic, width, float(fdtrc(width, effective_dof(space, shares), statistic / width)))
+        grams = component_grams(space, projected[:, alive] @ root)
+        statistic, p = usual_chance(space, root.T @ (stacked[:, alive].T @ settled), grams, factors)
+        outcome[name] = (statistic, root.shape[1], p)
     return {k: (s, w, min(1.0, p * len(outcome))) for k, (s, w, p) in outcome.items()}

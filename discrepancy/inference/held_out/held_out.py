@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import fdtrc
 
-from discrepancy.inference.base_fit.components import effective_dof
+from discrepancy.inference.base_fit.components import Component
+from discrepancy.inference.base_fit.squares import chance
 from discrepancy.inference.base_fit.workspace import Workspace, rows_of
 from discrepancy.inference.misfit.features import ORDERS, features
 from discrepancy.inference.misfit.localise import Group, Localisation
@@ -116,14 +116,16 @@ class HeldOutJudge:
             return None
         before, width = self.error(self.space.base.values)
         after, _ = self.error(rival.fit.values)
-        dof = effective_dof(self.space, self._shares())
         known = self.directions.T @ self._raw(rival.fit.values)
         # What the fit does not know it foretells no better: noise, and the uncertainty of its parameters.
         spread = self.directions.T @ self._sensitivities(rival)
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
-        unexplained = float(known @ np.linalg.solve(expected, known))
+        root = np.linalg.cholesky(expected)
+        score = np.linalg.solve(root, known)
+        grams = {c: np.linalg.solve(root, np.linalg.solve(root, g).T) for c, g in self._grams().items()}
+        unexplained, p = chance(self.space, score, grams, {})
         surprise = unexplained + float(np.linalg.slogdet(expected)[1])
-        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), float(fdtrc(width, dof, unexplained / width)),
+        return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), p,
                        self.rms(rival.fit.values), "held-out runs", self._visible(self.response(rival)), before - after, surprise)
 
     def tells(self, one: Refit, other: Refit) -> bool:
@@ -141,16 +143,17 @@ class HeldOutJudge:
         raw = [space.column(rival.fit.values, p, self.indices) if p.name in own else nuisances.get(p.name, {}) for p in rival.fit.parameters]
         return np.column_stack([self._stack({i: c for i, c in columns.items() if i in self.rows}) for columns in raw])
 
-    def _shares(self) -> dict[tuple[str, str], float]:
-        """Share of each part of the noise in the common directions."""
-        shares: dict[tuple[str, str], float] = defaultdict(float)
+    def _grams(self) -> dict[Component, Floats]:
+        """Gram matrix of the common directions in each part of the noise."""
+        width = self.directions.shape[1]
+        grams: dict[Component, Floats] = defaultdict(lambda: np.zeros((width, width)))
         for i, rows in self.rows.items():
             whitener, block = self.space.noise.whiteners[i], self.directions[rows]
-            amounts = np.sum((whitener.directions.T @ block) ** 2, axis=1)
-            shares[(whitener.quantity, "main")] += max(float(np.sum(block**2) - amounts.sum()), 0.0)
-            for component, amount in zip(whitener.components, amounts):
-                shares[component] += float(amount)
-        return shares
+            along = whitener.directions.T @ block
+            grams[(whitener.quantity, "main")] += block.T @ block - along.T @ along
+            for component, row in zip(whitener.components, along):
+                grams[component] += np.outer(row, row)
+        return grams
 
     def rms(self, values: Mapping[str, float]) -> dict[str, dict[str, float]]:
         """Root mean square by signal in its own unit, before and after, with the noise floor."""

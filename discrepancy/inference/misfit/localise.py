@@ -11,10 +11,10 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy.special import fdtrc
 
-from discrepancy.inference.base_fit.components import effective_dof, excess, mean_excess
+from discrepancy.inference.base_fit.components import Component, effective_dof, excess
 from discrepancy.inference.base_fit.fit import Fit
+from discrepancy.inference.base_fit.squares import Chance, chance
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.misfit.features import ORDERS, Feature, features, modulations, samples_of_a_wave
 from discrepancy.inference.noise.series import stream_of
@@ -100,8 +100,8 @@ class Localiser:
             directions = stepped(whitener.directions, step)
             self.cells[i] = (block, slices, directions.T @ block, block.T @ block)
 
-    def test(self, fit: Fit, level: float = LEVEL, name: str = "") -> Localisation:
-        """Tests what ``fit`` leaves over; ``name`` restricts to one signal."""
+    def test(self, fit: Fit, level: float = LEVEL, name: str = "", likely: Chance = chance) -> Localisation:
+        """Tests what ``fit`` leaves over; ``name`` restricts to one signal, ``likely`` says how large scores are by chance."""
         space = self.space
         inverse = np.asarray(np.linalg.pinv(fit.normal, hermitian=True), dtype=float) if fit.normal.size else np.zeros((0, 0))
         gradient = fit.gradient
@@ -122,7 +122,7 @@ class Localiser:
                     if comb and dependence != "everywhere":
                         continue
                     group = self._group(stream, feature, dependence, [indices[k] for k in have], basis[have],
-                                        inverse, gradient, crosses, scores, along_jacobian)
+                                        inverse, gradient, crosses, scores, along_jacobian, likely)
                     if group is not None:
                         groups.append(group)
         groups = _holm(groups)
@@ -133,7 +133,7 @@ class Localiser:
 
     def _group(
         self, stream: str, feature: str, dependence: str, indices: Sequence[int], basis: Floats, inverse: Floats, gradient: Floats,
-        crosses: Mapping[int, Floats], scores: Mapping[int, Floats], along_jacobian: Mapping[int, Floats],
+        crosses: Mapping[int, Floats], scores: Mapping[int, Floats], along_jacobian: Mapping[int, Floats], likely: Chance,
     ) -> Group | None:  # fmt: skip
         slices = [self.cells[i][1][feature] for i in indices]
         common = min(s.stop - s.start for s in slices)
@@ -156,25 +156,21 @@ class Localiser:
         keep = values > 1e-6 * values.max()
         root = np.zeros((int(keep.sum()), width))
         root[:, alive] = (vectors[:, keep] / np.sqrt(values[keep])).T / size
-        chi_square = float(np.sum((root[:, alive] @ score) ** 2))
+        score = root[:, alive] @ score
+        chi_square = float(np.sum(score**2))
         rank = root.shape[0]
         # functions of this group, record by record, in the coordinates of the test
         maps = np.einsum("kia,ri->rka", root.reshape(rank, m, common), basis)
-        totals = np.einsum("rka,rab,rkb->r", maps, cells, maps, optimize=True)
         back_root = root[:, alive] @ back
-        shares: dict[tuple[str, str], float] = defaultdict(float)
+        grams: dict[Component, Floats] = defaultdict(lambda: np.zeros((rank, rank)))
         for k, (i, o) in enumerate(zip(indices, own)):
-            whitener = self.space.noise.whiteners[i]
-            main = totals[k]
-            if whitener.directions.shape[1]:
-                amounts = np.sum((self.cells[i][2][:, o] @ maps[k].T - along_jacobian[i] @ back_root.T) ** 2, axis=1)
-                main = max(main - float(amounts.sum()), 0.0)
-                for component, amount in zip(whitener.components, amounts):
-                    shares[component] += float(amount)
-            shares[(whitener.quantity, "main")] += main
-        dof = effective_dof(self.space, shares)
-        statistic = chi_square / mean_excess(self.factors, shares)
-        single = float(fdtrc(rank, dof, statistic / rank))
+            along = self.cells[i][2][:, o] @ maps[k].T - along_jacobian[i] @ back_root.T
+            for component, row in zip(self.space.noise.whiteners[i].components, along):
+                grams[component] += np.outer(row, row)
+        # The runs of a group are of one signal.
+        grams[(stream, "main")] = np.eye(rank) - sum(grams.values(), np.zeros((rank, rank)))
+        dof = effective_dof(self.space, {c: float(np.trace(g)) for c, g in grams.items()})
+        statistic, single = likely(self.space, score, grams, self.factors)
         return Group(stream, feature, dependence, statistic, rank, dof, single, 1.0, chi_square=chi_square, indices=tuple(indices))
 
     def _conditions(self, scores: Mapping[int, Floats]) -> dict[str, dict[str, float]]:

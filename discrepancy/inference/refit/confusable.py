@@ -57,7 +57,7 @@ def known_before(rival: Refit) -> float:
 def ends_at_a_bound(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:
     """Whether a parameter, of some ``members`` if they are given, ended at a bound, or a shape so near to one that the effect stands for another, simpler
     one."""
-    return any(_at_a_bound(rival, p) and not _is_all(rival, c, p) for c in (rival.candidates if members is None else members) for p in c.parameters)
+    return any(_at_a_bound(rival, p) and not _is_all(rival, p) for c in (rival.candidates if members is None else members) for p in c.parameters)
 
 
 def newest_at_a_bound(joint: Refit) -> bool:
@@ -81,9 +81,9 @@ def _at_a_bound(rival: Refit, p: Parameter) -> bool:
     return p.name in rival.fit.at_bounds or _near_a_bound(p, rival.fit.values[p.name])
 
 
-def _is_all(rival: Refit, candidate: Candidate, p: Parameter) -> bool:
-    """Whether an amplitude is a share, and all: that is a value like another (no wear below a threshold), and no limit of the search."""
-    return p in candidate.amplitudes and (p.unit, p.lower, p.upper) == ("1", 0.0, 1.0) and rival.fit.values[p.name] > 0.5
+def _is_all(rival: Refit, p: Parameter) -> bool:
+    """Whether a parameter is a share, and all: that is a value like another (no wear below a threshold), and no limit of the search."""
+    return (p.unit, p.lower, p.upper) == ("1", 0.0, 1.0) and rival.fit.values[p.name] > 0.5
 
 
 def has_idle_shapes(rival: Refit, members: Sequence[Candidate] | None = None) -> bool:

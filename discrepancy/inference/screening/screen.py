@@ -16,6 +16,7 @@ import numpy as np
 from discrepancy.inference.base_fit.components import component_grams, effective_dof, excess, simulate
 from discrepancy.inference.base_fit.fit import Fit
 from discrepancy.inference.base_fit.projection import projected, side_by_side, squares
+from discrepancy.inference.base_fit.squares import PRIOR
 from discrepancy.inference.base_fit.workspace import Workspace
 from discrepancy.inference.screening.tail import needed_for, tail
 from discrepancy.problem import Candidate, Parameter
@@ -258,7 +259,7 @@ def screen(space: Workspace, candidates: Sequence[Candidate], columns: Columns, 
     grams = {c: np.where(dead[:, None] | dead[None, :], 0.0, g) for c, g in component_grams(space, without_fitted).items()}
     prior = gram - sum(grams.values())
     if np.trace(prior) > 1e-6 * np.trace(gram):
-        grams[("prior", "prior")] = prior
+        grams[PRIOR] = prior
     draws_of = simulate(space, grams, draws, rng, excess(space, fit))
     everything = np.vstack([score, draws_of])
     results: dict[int, _Tested] = {}

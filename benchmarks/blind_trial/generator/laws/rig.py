@@ -45,4 +45,4 @@ class SoftCoupling(Truth):
         return y + self.a * (change - (y - float(y.mean())))
 
     def parameters(self) -> dict[str, float]:
-        return {"resonance_share": self.a, "resonance_frequency": self.frequency, "resonance_damping": self.damping}
+        return {"resonance_share": self.a, "resonance_frequency": self.frequency, "resonance_damping": self.damping, "resonance_grounded": 0.5}
