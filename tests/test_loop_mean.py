@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from discrepancy.prediction.bench import Bench
+from discrepancy.prediction.bench import TORQUE_STEP, Bench
 from discrepancy.prediction.conditions import at_rest
 from discrepancy.prediction.curves import signal
 from discrepancy.prediction.held import HELD_ANGLES
@@ -11,6 +11,7 @@ from discrepancy.prediction.lives import SHORT_CYCLE
 from discrepancy.prediction.observe import coarse_lost_motion_change, lost_motion, lost_motion_at, middle_lines
 from discrepancy.prediction.over_torque import OverTorque, coarse_loop_change
 from discrepancy.prediction.standard_test import both_ways
+from discrepancy.prediction.torque_way import PASSED, entered, finely
 from discrepancy.prediction.units import Condition
 from discrepancy.problem import Record
 from reducers.reducer import load_reducer
@@ -82,6 +83,23 @@ def test_few_samples_of_a_loop_under_friction_lie_on_the_way_that_the_drive_has_
     true = bench.held(curve.condition, {}, way[1:])[sampled - 1]
     off = signal(curve, {}) - true
     assert np.sqrt(np.mean((off - off.mean()) ** 2)) < 0.1 * ARCSEC
+
+
+@pytest.mark.parametrize("shift", [0.003, 0.011])
+@pytest.mark.parametrize(("mu", "most"), [(0.03, 0.2), (0.12, 0.4)])
+def test_play_is_passed_as_by_very_short_steps(mu, most, shift):
+    """Wherever samples lie: in one step from 0.9 % of the rated torque to as much beyond, the sample after it was 0.35 and 8.8 arcsec off."""
+    bench = Bench(load_reducer("RV20E-121"), {})
+    condition = at_rest(bench, Condition(speed=bench.rated_speed, load=bench.rated_load))
+    torques = bench.rated_load * (np.interp(np.linspace(1.0, 5.0, 97), np.arange(6.0), [0.0, 1.0, 0.0, -1.0, 0.0, 1.0]) + shift)
+    path, lead = entered(torques, bench.rated_load, closed=True)
+
+    def seen(step, *passed):
+        fine, places = finely(path, step * bench.rated_load, np.array(passed) * bench.rated_load)
+        return bench.held(condition, {"friction_coefficient": mu}, fine)[places[lead:]]
+
+    off = seen(TORQUE_STEP, *PASSED) - seen(1.0 / 640.0, 0.0005)
+    assert np.abs(off - off.mean()).max() < most * ARCSEC
 
 
 def test_what_is_changed_in_a_loop_that_remembers_is_seen_from_few_positions():

@@ -13,6 +13,8 @@ from studies.hysteresis import LOST_MOTION_SHARE
 
 # Share of the rated torque below which a loop has no nodes: the output floats.
 NEAR_NOTHING = 0.009
+# Shares of the rated torque on either side of none at which the way stops: between the lesser ones it is passed in one step.
+PASSED = (0.002, 0.006)
 # Torques on a way in.
 LEAD = 9
 
@@ -23,8 +25,8 @@ def way(bench: Bench, values: Mapping[str, float], torques: Floats, longest: flo
     path, lead = entered(torques, bench.rated_load, closed)
     if not bench.remembers(values):
         return path, slice(lead, None)
-    step, least = longest * bench.rated_load, NEAR_NOTHING * bench.rated_load
-    fine, places = bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, least))
+    step, stops = longest * bench.rated_load, np.array(PASSED) * bench.rated_load
+    fine, places = bench.kept(("way", path.tobytes(), step), lambda: finely(path, step, stops))
     return fine, places[lead:]
 
 
@@ -46,19 +48,21 @@ def inwards(first: float, last: float) -> Floats:
     return found
 
 
-def finely(path: Floats, longest: float, least: float) -> tuple[Floats, npt.NDArray[np.intp]]:
+def finely(path: Floats, longest: float, passed: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:
     """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
     the drive goes from sample to sample too.
 
-    Below ``least`` nothing is put in: the output floats there.  It goes through from the same torque before to the same beyond, wherever samples lie:
-    what friction keeps of the play depends on the step through it (2.5 arcsec at the sample after it, beside oval discs).
+    Through no torque it goes by the torques ``passed`` before and beyond, wherever samples lie, and between the least of them in one step, for the
+    output floats there: what friction keeps of the play depends on the steps through it (docs/decisions.md).
     """
     parts, places, count = [path[:1]], [0], 1
     for a, b in pairwise(path):
-        stops = [stop for stop in (np.copysign(least, a), np.copysign(least, b)) if a * b < 0.0 and min(a, b) < stop < max(a, b)]
+        out = np.sort(passed)
+        through = (*np.copysign(out[::-1], a), *np.copysign(out, b)) if a * b < 0.0 else ()
+        stops = [stop for stop in through if min(a, b) < stop < max(a, b)]
         for begin, end in pairwise((a, *stops, b)):
             between = np.linspace(begin, end, max(int(np.ceil(abs(end - begin) / longest)), 1) + 1)[1:-1]
-            between = between[np.abs(between) >= least]
+            between = between[np.abs(between) >= out[0]]
             parts += [between, np.array([end])]
             count += len(between) + 1
         places.append(count - 1)

@@ -31,7 +31,7 @@ HELD_POSITIONS = 12
 # Longest step of a held torque where friction remembers its way, of the rated one: for the size of a law, and for what is measured.
 QUICK_STEP, WHOLE_STEP = 1.0 / 60.0, 1.0 / 250.0
 # Share of the rated torque below which a held output floats in its play, and no step ends.
-FLOATING = 0.01
+FLOATING = 0.003
 FIRST_JUMP, JUMP_GROWTH, LONGEST_JUMP = 25.0 * HOUR, 1.6, 800.0 * HOUR
 # Changes records before a run; factor on the wear of a surface ("flank", "race") in the course of a life.
 Change = Callable[[np.ndarray], None]

@@ -22,11 +22,11 @@ Component = tuple[str, str]
 LONG = 200
 
 
-def component_grams(space: Workspace, columns: Floats | Projected) -> dict[Component, Floats]:
-    """Gram matrix of ``columns`` (N, m) in each part of the noise; their sum is the whole."""
+def component_grams(space: Workspace, columns: Floats | Projected, places: Mapping[int, slice] | None = None) -> dict[Component, Floats]:
+    """Gram matrix of ``columns`` (N, m) in each part of the noise; their sum is the whole.  ``places``: rows of each run, without those of the training."""
     grams: dict[Component, Floats] = {}
     width = columns.shape[1]
-    for i, rows in space.rows.items():
+    for i, rows in (space.rows if places is None else places).items():
         whitener = space.noise.whiteners[i]
         main = grams.setdefault((whitener.quantity, "main"), np.zeros((width, width)))
         along = np.zeros((whitener.directions.shape[1], width))

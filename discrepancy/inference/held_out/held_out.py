@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from discrepancy.inference.base_fit.components import Component
+from discrepancy.inference.base_fit.components import component_grams
 from discrepancy.inference.base_fit.squares import chance
 from discrepancy.inference.base_fit.workspace import Workspace, rows_of
 from discrepancy.inference.misfit.features import ORDERS, features
@@ -66,6 +66,7 @@ class HeldOutJudge:
         self.blind = _orthonormal(blind)
         directions = directions - self.blind @ (self.blind.T @ directions)
         self.directions = _orthonormal(directions)
+        self.grams = component_grams(space, self.directions, self.rows)
 
     def _stack(self, arrays: Mapping[int, Floats]) -> Floats:
         result = np.zeros(self.size)
@@ -122,7 +123,7 @@ class HeldOutJudge:
         expected = np.eye(width) + spread @ rival.covariance @ spread.T
         root = np.linalg.cholesky(expected)
         score = np.linalg.solve(root, known)
-        grams = {c: np.linalg.solve(root, np.linalg.solve(root, g).T) for c, g in self._grams().items()}
+        grams = {c: np.linalg.solve(root, np.linalg.solve(root, g).T) for c, g in self.grams.items()}
         unexplained, p = chance(self.space, score, grams, {})
         surprise = unexplained + float(np.linalg.slogdet(expected)[1])
         return HeldOut(float(np.sqrt(before / width)), float(np.sqrt(after / width)), p,
@@ -142,18 +143,6 @@ class HeldOutJudge:
         nuisances = {p.name: columns for p, columns in zip(space.model.nuisances, space.raw_nuisance)}
         raw = [space.column(rival.fit.values, p, self.indices) if p.name in own else nuisances.get(p.name, {}) for p in rival.fit.parameters]
         return np.column_stack([self._stack({i: c for i, c in columns.items() if i in self.rows}) for columns in raw])
-
-    def _grams(self) -> dict[Component, Floats]:
-        """Gram matrix of the common directions in each part of the noise."""
-        width = self.directions.shape[1]
-        grams: dict[Component, Floats] = defaultdict(lambda: np.zeros((width, width)))
-        for i, rows in self.rows.items():
-            whitener, block = self.space.noise.whiteners[i], self.directions[rows]
-            along = whitener.directions.T @ block
-            grams[(whitener.quantity, "main")] += block.T @ block - along.T @ along
-            for component, row in zip(whitener.components, along):
-                grams[component] += np.outer(row, row)
-        return grams
 
     def rms(self, values: Mapping[str, float]) -> dict[str, dict[str, float]]:
         """Root mean square by signal in its own unit, before and after, with the noise floor."""
