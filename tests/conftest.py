@@ -2,6 +2,7 @@
 
 import gc
 import os
+import signal
 from collections import Counter
 
 # Every worker has a core of its own: more threads would wait for each other.  Before NumPy is loaded.
@@ -39,6 +40,9 @@ def pytest_addoption(parser):
 def pytest_configure(config):
     # Until all tests are collected: what is loaded by then stays.
     gc.disable()
+    # A shell that runs tests in the background lets them, and all that they start, ignore Ctrl-C: tests of it would wait for nothing.
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     config.cpu_before = sum(os.times()[:4])
 
 
