@@ -52,17 +52,18 @@ def finely(path: Floats, longest: float, passed: Floats) -> tuple[Floats, npt.ND
     """The way of a torque [N m] with steps no longer than ``longest``, and where its own places are: the output's place depends on the way, which
     the drive goes from sample to sample too.
 
-    Through no torque it goes by the torques ``passed`` before and beyond, wherever samples lie, and between the least of them in one step, for the
+    Through no torque it goes by the torques ``passed``, ascending, before and beyond, wherever samples lie, and between the least of them in one step, for the
     output floats there: what friction keeps of the play depends on the steps through it (docs/decisions.md).
     """
     parts, places, count = [path[:1]], [0], 1
+    through = np.concatenate([-passed[::-1], passed])
     for a, b in pairwise(path):
-        out = np.sort(passed)
-        through = (*np.copysign(out[::-1], a), *np.copysign(out, b)) if a * b < 0.0 else ()
-        stops = [stop for stop in through if min(a, b) < stop < max(a, b)]
+        stops = through[(through > min(a, b)) & (through < max(a, b))] if a * b < 0.0 else through[:0]
+        if b < a:
+            stops = stops[::-1]
         for begin, end in pairwise((a, *stops, b)):
             between = np.linspace(begin, end, max(int(np.ceil(abs(end - begin) / longest)), 1) + 1)[1:-1]
-            between = between[np.abs(between) >= out[0]]
+            between = between[np.abs(between) >= passed[0]]
             parts += [between, np.array([end])]
             count += len(between) + 1
         places.append(count - 1)
