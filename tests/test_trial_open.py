@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from benchmarks.blind_trial import enter, publish_open, score
+from benchmarks.blind_trial import enter, publish_open, run, score
 from benchmarks.blind_trial.answers import FORMAT, VERDICTS, read_answers, results_of, seals_of, write_answers, wrong_with
 from benchmarks.blind_trial.generator.make import Task
 from benchmarks.blind_trial.words import SEALS
@@ -122,6 +122,14 @@ def test_a_method_that_is_not_installed_says_so(trial, monkeypatch):
     monkeypatch.setattr("benchmarks.blind_trial.peers.peers_of", lambda folder, methods: {"seconds": ["1.0"]})
     with pytest.raises(InputFault, match="pip install pysindy"):
         enter.answer_of("PySINDy STLSQ", trial[0] / "campaigns" / "campaign_00001")
+
+
+def test_a_trial_with_peers_is_not_begun_without_them(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("benchmarks.blind_trial.peers.PACKAGES", {"pysindy": "no_such_module", "joblib": "joblib"})
+    monkeypatch.setattr(sys, "argv", ["run", "--campaigns", "1", "--seed", "3", "--peers", "1", "--folder", str(tmp_path)])
+    with pytest.raises(SystemExit):
+        run.main()
+    assert capsys.readouterr().err.endswith("peers are not installed: pip install pysindy\n") and not list(tmp_path.iterdir())
 
 
 def test_bic_answers_from_the_folder_alone(trial):

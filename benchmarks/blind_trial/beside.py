@@ -18,7 +18,7 @@ from typing import Any
 
 from benchmarks.blind_trial.final import final_plan
 from benchmarks.blind_trial.generator.make import Task, make
-from benchmarks.blind_trial.peers import peers_of
+from benchmarks.blind_trial.peers import lacking, peers_of
 from benchmarks.blind_trial.plan import plan
 from benchmarks.blind_trial.results import end_line, finished, peers_in
 from benchmarks.blind_trial.words import ABOUT, BESIDE
@@ -61,6 +61,8 @@ def main() -> int:
     about = json.loads((arguments.folder / ABOUT).read_text(encoding="utf-8"))
     if about.get("final", False) != arguments.final:
         parser.error(f"{arguments.folder} is {'' if about.get('final') else 'not '}a final trial's")
+    if problem := lacking():
+        parser.error(problem)
     tasks = final_plan(about["seed"]) if arguments.final else plan(about["campaigns"], about["seed"])
     results, done = finished(arguments.folder), peers_in(arguments.folder)
     left = [t for t in tasks if t.number % arguments.every == 0 and t.number not in done and "truth" in results.get(t.number, {})]

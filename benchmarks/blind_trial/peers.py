@@ -10,6 +10,7 @@ import tempfile
 import time
 import warnings
 from collections.abc import Callable, Iterable
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -127,7 +128,6 @@ def write_problem(folder: Path, parameters: list[str], kind: str) -> Path:
 
 
 Method = Callable[[Library], list[str]]
-# What of each is not installed is left out.
 METHODS: dict[str, Method] = {
     "BIC, white noise": lambda given: forward(given.residual, given.nuisances, given.columns, given.owners, "BIC", 1),
     "PEtab Select, forward by AIC": lambda given: petab(given.residual, given.nuisances, given.columns, given.owners, "AIC"),
@@ -138,8 +138,19 @@ METHODS: dict[str, Method] = {
 }
 
 
+# What they need beside this project's packages, by the names with which they are installed.
+PACKAGES = {"pysindy": "pysindy", "petab-select": "petab_select", "sbi": "sbi"}
+
+
+def lacking() -> str:
+    """What must be installed before all methods can be asked; empty if nothing."""
+    absent = [package for package, module in PACKAGES.items() if find_spec(module) is None]
+    return f"peers are not installed: pip install {' '.join(absent)}" if absent else ""
+
+
 def peers_of(folder: Path, methods: Iterable[str] = METHODS) -> dict[str, list[str]]:
-    """Names by method, best first; empty: nothing is missing; ``UNKNOWN`` alone: something is, said without a name."""
+    """Names by method, best first; empty: nothing is missing; ``UNKNOWN`` alone: something is, said without a name.  Methods that are not
+    installed are left out."""
     started = time.perf_counter()
     found: dict[str, list[str]] = {}
     with warnings.catch_warnings():

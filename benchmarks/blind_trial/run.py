@@ -193,6 +193,11 @@ def main() -> int:
         return 0
     if problem := other_plan(arguments.folder / ABOUT, arguments.seed, arguments.final):
         parser.error(problem)
+    if arguments.peers:
+        from benchmarks.blind_trial.peers import lacking
+
+        if problem := lacking():
+            parser.error(problem)
     (arguments.folder / ABOUT).write_text(json.dumps({"commit": commits(arguments.folder / ABOUT), "seed": arguments.seed, "final": arguments.final, "campaigns": arguments.campaigns}), encoding="utf-8")
     peers = {t.number for t in tasks if arguments.peers and t.number % arguments.peers == 0}
     trial(tasks, arguments.folder.resolve(), arguments.keep, peers, arguments.jobs, arguments.scheduler)
