@@ -23,6 +23,7 @@ from benchmarks.blind_trial.generator.reducer import SOFT
 from benchmarks.blind_trial.generator.strength import LONG, Ruler, axis_variance, whitener
 from benchmarks.blind_trial.generator.trouble import BASES, NOISES, STIFF, TAILS
 from benchmarks.blind_trial.generator.truth import Bench
+from benchmarks.blind_trial.publish import peers_section
 from benchmarks.blind_trial.results import finished, pack, unpack
 from benchmarks.blind_trial.score import cases_of, misses, score
 from benchmarks.blind_trial.targets import APART, TARGETS, Target, reached
@@ -117,6 +118,19 @@ def test_a_base_that_is_off_may_be_said_to_be_where_it_is():
     assert figures["judged"]["false_alarms"]["count"] == 2
     assert figures["alarms_by_trouble"][STIFF]["count"] == 0
     assert [c.number for c in misses(cases_of({r["number"]: r for r in results}))] == [2, 3]
+
+
+def test_an_alarm_without_a_name_names_nothing():
+    """sbi's tests only say that something is missing: an alarm, which is no name for a law outside, and right for none within."""
+    hidden = [result(1, "null", "none"), result(2, "effect", "one effect", ["drag"], ["drag"], 12.0), result(3, "effect", "set", ["gain"], ["drag"], 6.0),
+              result(4, "outside", "unknown", (), [""], 20.0), result(5, "outside", "named but incomplete", ["gain"], [""], 20.0)]  # fmt: skip
+    said = [{"BIC": ["drag.seals"], "sbi": []}, {"BIC": ["drag.seals"], "sbi": ["unknown"]}, {"BIC": []}, {"BIC": ["gain.x"], "sbi": ["unknown"]}, {"BIC": []}]
+    lines = peers_section(cases_of({r["number"]: r | {"peers": p | {"seconds": ["1.0"]}} for r, p in zip(hidden, said)}))
+    assert [line for line in lines if line.startswith(("| BIC", "| sbi", "| this"))] == [
+        "| BIC | 1 of 1 | 1 of 1 | 1 of 1 | 1 of 2 | 1 of 2 |",
+        "| sbi | 0 of 1 | 1 of 1 | 0 of 1 | 1 of 1 | 0 of 1 |",
+        "| this diagnosis | 0 of 1 | 1 of 1 | 1 of 1 | 2 of 2 | 0 of 2 |",
+    ]
 
 
 def torque_ruler(laws) -> tuple[Ruler, list]:
