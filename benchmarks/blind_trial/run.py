@@ -1,7 +1,7 @@
 """The blind trial: makes campaigns, seals their truths, asks the tool, unseals and scores.
 
     python -m benchmarks.blind_trial.run --final                                                  # the one whose levels are fixed
-    python -m benchmarks.blind_trial.run --final --seed 20261227 --pack                           # the next one, kept as far as it is done
+    python -m benchmarks.blind_trial.run --final --seed SEED --pack                               # the next one, kept as far as it is done
     python -m benchmarks.blind_trial.run --campaigns 1000 --folder /tmp/trial
     python -m benchmarks.blind_trial.run --folder /tmp/trial --scheduler tcp://10.0.0.1:8786      # a Dask cluster
     python -m benchmarks.blind_trial.run --folder /tmp/trial --publish                            # docs/blind_trial.md
