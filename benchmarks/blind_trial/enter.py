@@ -49,11 +49,11 @@ def answer_of(method: str, folder: Path) -> Answer | None:
 
         found = tool.answer_of(folder)
         return None if found["verdict"] == "crash" else by_diagnosis(found)
-    from benchmarks.blind_trial.peers import peers_of
+    from benchmarks.blind_trial.peers import PACKAGES, peers_of
 
     named = peers_of(folder, [method])
     if method not in named and "error" not in named:
-        raise InputFault(f"{method}: its package is not installed; pip install pysindy petab-select sbi")
+        raise InputFault(f"{method}: its package is not installed; pip install {' '.join(PACKAGES)}")
     return by_names(named[method]) if method in named else None
 
 
